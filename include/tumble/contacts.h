@@ -55,6 +55,20 @@ struct ExternalLoad {
     Vec3 moment;  // N m about the world origin
 };
 
+/// A bond of a breakable body that failed.
+struct Break {
+    double time = 0.0;       // s
+    std::size_t body = 0;    // the whole body
+    std::size_t bond = 0;    // index of the bond in its body
+    double area = 0.0;       // m^2
+    double tension = 0.0;    // N along the normal; negative: compression
+    double bending = 0.0;    // N m, across the normal
+    double shear = 0.0;      // N, across the normal
+    double torsion = 0.0;    // N m about the normal
+    double energy = 0.0;     // J, that the new surface took from the motion
+    std::size_t pieces = 0;  // of the body, after it
+};
+
 /// Over the frame that ends now, the change of a body's momentum is the sum of its impulses, and of its contact forces
 /// and its external load times the frame's duration. The same holds of angular momentum about the world origin and the
 /// moments.

@@ -167,6 +167,22 @@ private:
     std::unique_ptr<State> state_;
 };
 
+/// The table of `tumble simulate --breaks`: one row per bond that failed.
+class BreakTable {
+public:
+    BreakTable(const std::string& file, const Scene& scene);
+    ~BreakTable();
+    BreakTable(BreakTable&&) noexcept;
+    BreakTable& operator=(BreakTable&&) noexcept;
+
+    void add(const std::vector<Break>& breaks);
+    void finish();
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
 /// The table of `tumble simulate --joints`: one row per frame and joint.
 class JointTable {
 public:

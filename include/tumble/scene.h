@@ -53,6 +53,8 @@ public:
 
     /// Joints in the order of the file, chains expanded. Throws Error (input) for an index of no joint.
     std::size_t joint_count() const;
+    /// True if a body has a fracture table.
+    bool breakable() const;
     const std::string& joint_name(std::size_t joint) const;  // given, or "joint" with the index
 
     /// The scene file and the mesh files that were read.

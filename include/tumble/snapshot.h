@@ -14,6 +14,7 @@ struct BodyState {
     Quat orientation;       // unit
     Vec3 velocity;          // m/s, of the center of mass
     Vec3 angular_velocity;  // rad/s
+    bool absent = false;    // a piece that has not broken off, or a body in pieces: it is not drawn
 };
 
 struct Snapshot {
@@ -38,6 +39,7 @@ struct Energies {
     double elastic = 0.0;     // in joints' springs, at that time
     double motor_work = 0.0;  // the part of `work` by motors of joints
     double joint_heat = 0.0;  // the part of `friction_loss` in joints: friction, dampers, breaking
+    double surface = 0.0;     // lost by impacts to the new surfaces of bodies that broke
 };
 
 TUMBLE_END

@@ -42,6 +42,8 @@ public:
     Snapshot snapshot() const;
     /// States of all joints, in the order of the scene; forces of the last advance_frame(), otherwise 0.
     std::vector<JointState> joints() const;
+    /// The bonds of breakable bodies that failed in the last frame.
+    std::vector<Break> breaks() const;
     /// Finds the contacts of the present poses, which costs about as much as a step.
     Energies energies() const;
     /// Properties of the body of that index in scene order. Throws Error (input) for an index of no body.

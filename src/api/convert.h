@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/image.h"
 #include "core/vector.h"
+#include "sim/snapshot/break_record.h"
 #include "sim/snapshot/contact_records.h"
 #include "sim/snapshot/joint_state.h"
 #include "sim/snapshot/report.h"
@@ -31,7 +32,7 @@ inline Snapshot to_public(const tumble::Snapshot& from) {
     to.bodies.reserve(from.bodies.size());
     for (const tumble::BodyState& b : from.bodies)
         to.bodies.push_back({to_public(b.origin), to_public(b.center_of_mass), to_public(b.orientation),
-                             to_public(b.velocity), to_public(b.angular_velocity)});
+                             to_public(b.velocity), to_public(b.angular_velocity), b.absent});
     return to;
 }
 
@@ -59,6 +60,13 @@ inline std::vector<JointState> to_public(const std::vector<tumble::JointState>& 
     return to;
 }
 
+inline std::vector<Break> to_public(const std::vector<BreakRecord>& from) {
+    std::vector<Break> to;
+    for (const BreakRecord& r : from)
+        to.push_back({r.time, r.body, r.bond, r.area, r.tension, r.bending, r.shear, r.torsion, r.energy, r.pieces});
+    return to;
+}
+
 inline Energies to_public(const Measurement& m, const EnergyLedger& ledger) {
     return {.kinetic = m.kinetic,
             .potential = m.potential,
@@ -73,7 +81,8 @@ inline Energies to_public(const Measurement& m, const EnergyLedger& ledger) {
             .friction_loss = ledger.friction_loss,
             .elastic = m.elastic,
             .motor_work = ledger.motor_work,
-            .joint_heat = ledger.joint_heat};
+            .joint_heat = ledger.joint_heat,
+            .surface = ledger.surface};
 }
 
 /// Throws InputError where the snapshot is not of a scene with that many bodies.
@@ -83,9 +92,11 @@ inline tumble::Snapshot to_internal(const Snapshot& from, std::size_t bodies) {
             fmt::format("the snapshot must hold each body of the scene: {} (given {})", bodies, from.bodies.size()));
     tumble::Snapshot to{from.frame, from.time, {}};
     to.bodies.reserve(bodies);
-    for (const BodyState& b : from.bodies)
+    for (const BodyState& b : from.bodies) {
         to.bodies.push_back({to_internal(b.origin), to_internal(b.center_of_mass), to_internal(b.orientation),
                              to_internal(b.velocity), to_internal(b.angular_velocity)});
+        to.bodies.back().absent = b.absent;
+    }
     return to;
 }
 

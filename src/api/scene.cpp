@@ -175,6 +175,10 @@ std::optional<std::size_t> Scene::find_body(const std::string& name) const {
     return found->second;
 }
 
+bool Scene::breakable() const {
+    return std::ranges::any_of(data().description->bodies, [](const auto& body) { return body.fracture != nullptr; });
+}
+
 std::size_t Scene::joint_count() const { return data().description->joints.size(); }
 
 const std::string& Scene::joint_name(std::size_t joint) const {

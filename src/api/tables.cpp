@@ -43,6 +43,9 @@ TrajectoryTable::~TrajectoryTable() = default;
 TrajectoryTable::TrajectoryTable(TrajectoryTable&&) noexcept = default;
 TrajectoryTable& TrajectoryTable::operator=(TrajectoryTable&&) noexcept = default;
 
+// Columns of a row after the name: position, rotation, velocity, angular velocity.
+static constexpr int state_columns = 13;
+
 void TrajectoryTable::add(const Snapshot& snapshot) {
     write_with(state_, "TrajectoryTable", [&](State& state) {
         const Scene& scene = state.scene;
@@ -54,6 +57,11 @@ void TrajectoryTable::add(const Snapshot& snapshot) {
             if (scene.body_type(i) == BodyType::fixed) continue;
             const BodyState& body = snapshot.bodies[i];
             table.integer(snapshot.frame).number(snapshot.time).text(scene.body_name(i));
+            if (body.absent) {
+                for (int column = 0; column < state_columns; ++column) table.text("");
+                table.end_row();
+                continue;
+            }
             write_vector(table, body.center_of_mass);
             const Quat& q = body.orientation;
             table.number(q.w).number(q.x).number(q.y).number(q.z);
@@ -71,21 +79,22 @@ void TrajectoryTable::finish() {
 // -- EnergyTable
 
 struct EnergyTable::State : Writing {
-    State(const std::string& file, bool of_joints)
+    State(const std::string& file, bool of_joints, bool of_breaks)
         : joints(of_joints),
+          breaks(of_breaks),
           table(file, std::string("frame,time,kinetic,potential,total,px,py,pz,lx,ly,lz,contacts,max_penetration,"
                                   "kinetic_linear,kinetic_angular,work,impact_loss,friction_loss,elastic") +
-                          (of_joints ? ",motor_work,joint_heat" : "")) {}
+                          (of_joints ? ",motor_work,joint_heat" : "") + (of_breaks ? ",surface_energy" : "")) {}
 
-    bool joints;
+    bool joints, breaks;
     TableWriter table;
 };
 
 EnergyTable::EnergyTable(const std::string& file) {
-    guarded([&] { state_ = std::make_unique<State>(file, false); });
+    guarded([&] { state_ = std::make_unique<State>(file, false, false); });
 }
 EnergyTable::EnergyTable(const std::string& file, const Scene& scene) {
-    guarded([&] { state_ = std::make_unique<State>(file, scene.joint_count() > 0); });
+    guarded([&] { state_ = std::make_unique<State>(file, scene.joint_count() > 0, scene.breakable()); });
 }
 EnergyTable::~EnergyTable() = default;
 EnergyTable::EnergyTable(EnergyTable&&) noexcept = default;
@@ -105,6 +114,7 @@ void EnergyTable::add(std::int64_t frame, double time, const Energies& e) {
         table.number(e.kinetic_linear).number(e.kinetic_angular);
         table.number(e.work).number(e.impact_loss).number(e.friction_loss).number(e.elastic);
         if (state.joints) table.number(e.motor_work).number(e.joint_heat);
+        if (state.breaks) table.number(e.surface);
         table.end_row();
     });
 }

@@ -55,6 +55,10 @@ std::vector<JointState> World::joints() const {
     return guarded([&] { return to_public(state_of(state_, "World").world.joint_states()); });
 }
 
+std::vector<Break> World::breaks() const {
+    return guarded([&] { return to_public(state_of(state_, "World").world.breaks()); });
+}
+
 Energies World::energies() const {
     return guarded([&] {
         State& state = state_of(state_, "World");

@@ -18,6 +18,7 @@
 #include "sim/step/contact_detection.h"
 #include "sim/step/event_driven_stage.h"
 #include "sim/step/force_stage.h"
+#include "sim/step/fracture_stage.h"
 #include "sim/step/hit_stage.h"
 #include "sim/step/impact_stage.h"
 #include "sim/step/joined_motion.h"
@@ -60,6 +61,7 @@ struct World::State {
     std::vector<std::uint32_t> woken;  // by joints, in this step
     ForceStage forces;
     ContactDetection detection;
+    FractureStage fracture;
     ImpactStage impacts;
     HitStage hits;
     ContactSolver contact_solver;
@@ -87,6 +89,7 @@ struct World::State {
           forces(scene, set),
           detection(scene.bodies.size(), threads,
                     exact_impacts(scene) ? NarrowPhase::Memory::off : NarrowPhase::Memory::on),
+          fracture(scene, set, joints),
           contact_solver(scene.bodies.size(), settings.contact_solver,
                          exact_impacts(scene) ? ContactSolver::Effort::precisely : ContactSolver::Effort::balanced),
           sleep(scene.bodies.size()),
@@ -111,18 +114,21 @@ struct World::State {
                 .log = log.get(),
                 .joints = joints,
                 .placed = placed,
-                .rolling = rolling};
+                .rolling = rolling,
+                .fracture = fracture};
     }
 
     /// The log and its records are apart: a world without a log skips those of another.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [settings, clock, steps, set, joints, joined, rolling, placed, woken, forces, detection, impacts, hits,
-               contact_solver, motion, sleep, check, log, totals, records, notes, potential_at_start, asleep, pool] =
+        auto& [settings, clock, steps, set, joints, joined, rolling, placed, woken, forces, detection, fracture, impacts,
+               hits, contact_solver, motion, sleep, check, log, totals, records, notes, potential_at_start, asleep, pool] =
             self;
         archive.rebuilt(settings, clock);
         archive.expect_bodies(set.bodies.size());
         archive.between(0, steps, most_steps);
+        archive.keep(fracture);
+        if constexpr (!std::is_const_v<Self>) self.fracture.rebuild(self.set, self.joints);
         archive.keep(set, joints, joined, forces, detection, impacts, hits, contact_solver, sleep, check);
         if (forces.field().has_potential()) archive.keep(potential_at_start);
         archive.require([&] { return self.sleep.sound(self.set.bodies); });
@@ -157,6 +163,7 @@ void World::State::run_stages(const StepContext& step) {
     begin_joints(step);
     if (sleep.changes() + joints.changes() != changes) detection.out_of_date();
     detection.update(step, *motion);   // pairs: broad phase, exact manifolds, islands
+    fracture.strike(step, detection, *motion);  // blows that break a body
     impacts.resolve(step, detection);  // v_rel < 0: impulses with restitution (notes eq. 20)
     placed.clear(set.bodies);
     joined.decide(step, detection);   // joined bodies: their way in this step; those that touch nothing move
@@ -191,6 +198,8 @@ void World::State::step() {
     set.place_kinematic(clock, steps);
     stop_if_not_finite(context());
     fall_asleep();  // islands at rest are excluded from the simulation
+    fracture.finish_events(context(), detection);
+    fracture.yield(context(), detection, *motion);
     resolve_hits();
 }
 
@@ -205,6 +214,7 @@ void World::State::resolve_hits() {
 void World::State::begin_frame() {
     if (log) log->begin_frame(set.bodies);
     joints.begin_frame();
+    fracture.begin_frame();
 }
 
 void World::State::end_frame(int length) {
@@ -223,6 +233,7 @@ void World::State::advance(std::int64_t to) {
         } else {
             if (log) log_skipped(reached - steps);
             steps = reached;
+            fracture.finish_events(context(), detection);
             stop_if_not_finite(context());
         }
     }
@@ -374,6 +385,7 @@ void World::record_contacts() { state_->record(ContactLog::Detail::records); }
 void World::record_energy() { state_->record(ContactLog::Detail::energy); }
 
 const ContactRecords& World::contact_records() const { return state_->records; }
+const std::vector<BreakRecord>& World::breaks() const { return state_->fracture.breaks(); }
 bool World::records_contacts() const { return state_->log && state_->log->has_records(); }
 
 Snapshot World::snapshot() const {
@@ -383,8 +395,8 @@ Snapshot World::snapshot() const {
     snapshot.frame = s.steps / s.settings.steps_per_frame;
     snapshot.time = s.clock.seconds(s.steps);
     snapshot.bodies.resize(set.bodies.size());
-    for (std::size_t i = 0; i < set.bodies.size(); ++i) {
-        const Body& body = set.bodies[i];
+    for (std::uint32_t i = 0; i < set.bodies.size(); ++i) {
+        const Body& body = set.bodies[s.fracture.bodies().mover_of(i)];
         BodyState state{set.origin + body.origin(), set.origin + body.position, body.orientation, body.velocity,
                         body.angular_velocity};
         state.asleep = body.asleep;
@@ -393,6 +405,7 @@ Snapshot World::snapshot() const {
             state.momentum = body.momentum;
             state.angular_momentum = body.angular_momentum;
         }
+        s.fracture.bodies().describe(i, body, state);
         if (body.track) {  // the path's own velocity at this time, not the mean over the coming step
             const BodyVelocity now = velocity_on_track(body, snapshot.time);
             state.velocity = now.velocity;
@@ -457,6 +470,7 @@ void World::restore(CheckpointReader& reader) {
     const bool records = s.log != nullptr;
     State::visit(reader, s);
     s.motion->restore(reader, s.steps);
+    s.fracture.restored(s.context(), *s.motion);
     bool recorded = false;
     reader.keep(recorded);
     if (records && !recorded)

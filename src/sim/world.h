@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scene/description/description.h"
+#include "sim/snapshot/break_record.h"
 #include "sim/snapshot/contact_records.h"
 #include "sim/snapshot/joint_report.h"
 #include "sim/snapshot/joint_state.h"
@@ -42,6 +43,8 @@ public:
     void record_energy();
     /// Records of the last advance_frame(), or of the start. Precondition: record_contacts() or record_energy().
     const ContactRecords& contact_records() const;
+    /// The bonds that failed in the last advance_frame().
+    const std::vector<BreakRecord>& breaks() const;
     bool records_contacts() const;
 
     Snapshot snapshot() const;

@@ -16,7 +16,8 @@ bool same_bits(const Vector& a, const Vector& b) {
 }
 
 bool same_pose_bits(const BodyState& a, const BodyState& b) {
-    return same_bits(a.origin, b.origin) && same_bits(a.center_of_mass, b.center_of_mass) &&
+    return a.absent == b.absent && same_bits(a.origin, b.origin) &&
+           same_bits(a.center_of_mass, b.center_of_mass) &&
            same_bits(a.orientation.coeffs(), b.orientation.coeffs());
 }
 
@@ -24,7 +25,7 @@ bool same_pose_bits(const BodyState& a, const BodyState& b) {
 template <class Archive, class State>
 void visit_pose(Archive& archive, State& state) {
     bool at_origin = same_bits(state.origin, state.center_of_mass);
-    archive.keep(at_origin, state.origin, state.orientation);
+    archive.keep(at_origin, state.origin, state.orientation, state.absent);
     if (!at_origin)
         archive.keep(state.center_of_mass);
     else if constexpr (!std::is_const_v<State>)

@@ -473,6 +473,12 @@ void add_simulate(Command& command) {
         ->transform(or_standard_output())
         ->type_name("J.csv");
     command
+        .add_option("--breaks", c.tables.breaks,
+                    "CSV or .npz: one row per bond of a breakable body that failed, with its load; - is\nstandard output")
+        ->check(file_name("csv npz"))
+        ->transform(or_standard_output())
+        ->type_name("B.csv");
+    command
         .add_option("--sound", c.sound,
                     "The sound of impacts, sliding and rolling: a WAV file, 48000 samples a second. The times of the\n"
                     "impacts are exact")

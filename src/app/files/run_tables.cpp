@@ -7,7 +7,7 @@ namespace tumble {
 
 std::vector<std::filesystem::path> TableFiles::all() const {
     std::vector<std::filesystem::path> files;
-    for (const auto& file : {trajectory, energy, impacts, contacts, loads, joints})
+    for (const auto& file : {trajectory, energy, impacts, contacts, loads, joints, breaks})
         if (file) files.push_back(*file);
     return files;
 }
@@ -19,6 +19,7 @@ void TableFiles::add_to(OutputPlan& plan) const {
     if (contacts) plan.add("--contacts", *contacts);
     if (loads) plan.add("--loads", *loads);
     if (joints) plan.add("--joints", *joints);
+    if (breaks) plan.add("--breaks", *breaks);
 }
 
 RunTables::RunTables(const TableFiles& files, const v0::Scene& scene, std::int64_t first)
@@ -29,6 +30,7 @@ RunTables::RunTables(const TableFiles& files, const v0::Scene& scene, std::int64
     if (files.contacts) contacts_.emplace(*files.contacts, scene);
     if (files.loads) loads_.emplace(*files.loads, scene);
     if (files.joints) joints_.emplace(*files.joints, scene);
+    if (files.breaks) breaks_.emplace(*files.breaks, scene);
 }
 
 void RunTables::start_records(World& world) const {
@@ -44,6 +46,7 @@ void RunTables::add(std::int64_t frame, const World& world) {
     if (trajectory_) trajectory_->add(v0::to_public(world.snapshot()));
     if (energy_) energy_->add(frame, time, v0::to_public(world.measure(), world.contact_records().energy));
     if (joints_) joints_->add(frame, time, v0::to_public(world.joint_states()));
+    if (breaks_ && frame >= first_) breaks_->add(v0::to_public(world.breaks()));
     if (!needs_contacts()) return;
     v0::FrameContacts contacts = v0::to_public(world.contact_records());
     std::erase_if(contacts.impacts, [&](const v0::Impact& impact) { return impact.frame < first_; });
@@ -59,6 +62,7 @@ void RunTables::finish() {
     if (contacts_) contacts_->finish();
     if (loads_) loads_->finish();
     if (joints_) joints_->finish();
+    if (breaks_) breaks_->finish();
 }
 
 }  // namespace tumble

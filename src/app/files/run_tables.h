@@ -15,7 +15,7 @@ class OutputPlan;
 
 /// The files of the tables that are asked for.
 struct TableFiles {
-    std::optional<std::filesystem::path> trajectory, energy, impacts, contacts, loads, joints;
+    std::optional<std::filesystem::path> trajectory, energy, impacts, contacts, loads, joints, breaks;
     std::int64_t contacts_every = 1;  // frames between two with rows of contacts; frame 0 has some
 
     std::vector<std::filesystem::path> all() const;
@@ -49,6 +49,7 @@ private:
     std::optional<v0::ContactTable> contacts_;
     std::optional<v0::LoadTable> loads_;
     std::optional<v0::JointTable> joints_;
+    std::optional<v0::BreakTable> breaks_;
 };
 
 }  // namespace tumble

@@ -19,7 +19,7 @@ namespace tumble {
 namespace {
 
 constexpr std::size_t page = 4096;          // bytes: regions with different writers are on separate pages
-constexpr std::size_t numbers_of_body = 7;  // x, y, z; x, y, z, w
+constexpr std::size_t numbers_of_body = 8;  // x, y, z; x, y, z, w; 1 if absent
 
 // Bytes for the shapes of an overlay: a million arrows. Pages that are never written take no memory.
 constexpr std::size_t overlay_space = 128 << 20;
@@ -87,6 +87,7 @@ void SharedFrames::write(const PoseRegion& region, std::size_t index, const Snap
     for (const BodyState& body : snapshot.bodies) {
         std::copy_n(body.origin.data(), 3, to);
         std::copy_n(body.orientation.coeffs().data(), 4, to + 3);
+        to[7] = body.absent ? 1.0 : 0.0;
         to += numbers_of_body;
     }
 }
@@ -102,6 +103,7 @@ void SharedFrames::read(const PoseRegion& region, std::size_t index, Snapshot& s
     for (BodyState& body : snapshot.bodies) {
         std::copy_n(from, 3, body.origin.data());
         std::copy_n(from + 3, 4, body.orientation.coeffs().data());
+        body.absent = from[7] != 0.0;
         from += numbers_of_body;
     }
 }

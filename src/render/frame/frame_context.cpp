@@ -68,8 +68,13 @@ bool FrameSetup::shows(const Snapshot& whole) {
     const CameraDescription now = mirrored(animation_.at(whole), mirror_);
     if (!finished_ || !same_place(now, placed_) || now.dof != placed_.dof) return false;
     return std::ranges::equal(poses_, parts_.snapshot(whole).bodies, [](const Pose& pose, const BodyState& state) {
-        return pose.origin == state.origin && pose.orientation.coeffs() == state.orientation.coeffs();
+        return pose == Pose{state.origin, state.orientation, state.absent};
     });
+}
+
+// A frame in which a body appears or vanishes has nothing in common with the one before.
+bool FrameSetup::same_bodies(const Snapshot& snapshot) const {
+    return std::ranges::equal(poses_, snapshot.bodies, {}, &Pose::absent, &BodyState::absent);
 }
 
 std::vector<char> FrameSetup::find_moved(const Snapshot& snapshot, bool anew) {
@@ -77,10 +82,9 @@ std::vector<char> FrameSetup::find_moved(const Snapshot& snapshot, bool anew) {
     poses_.resize(moved.size());
     for (std::size_t i = 0; i < moved.size(); ++i) {
         const BodyState& state = snapshot.bodies[i];
-        Pose& pose = poses_[i];
-        if (!anew && pose.origin == state.origin && pose.orientation.coeffs() == state.orientation.coeffs())
-            moved[i] = 0;
-        pose = {state.origin, state.orientation};
+        const Pose now{state.origin, state.orientation, state.absent};
+        if (!anew && poses_[i] == now) moved[i] = 0;
+        poses_[i] = now;
     }
     return moved;
 }
@@ -89,7 +93,7 @@ FrameContext FrameSetup::prepare(const Snapshot& whole, bool one_sample, bool fu
     const Snapshot& snapshot = parts_.snapshot(whole);
     TUMBLE_CHECK_EQ(snapshot.bodies.size(), scene_->bodies.size());
     FrameContext frame{*scene_, snapshot, camera_, one_sample};
-    frame.anew = !std::exchange(finished_, false);
+    frame.anew = !std::exchange(finished_, false) || !same_bodies(snapshot);
     frame.camera_moved = move_camera(whole);
     frame.moved = find_moved(snapshot, frame.anew);
     frame.unchanged = !full_redraw && !frame.anew && !frame.camera_moved &&

@@ -66,8 +66,14 @@ private:
     struct Pose {
         Vec3 origin;
         Quat orientation;
+        bool absent = false;
+        bool operator==(const Pose& other) const {
+            return absent == other.absent &&
+                   (absent || (origin == other.origin && orientation.coeffs() == other.orientation.coeffs()));
+        }
     };
     bool move_camera(const Snapshot& whole);
+    bool same_bodies(const Snapshot& snapshot) const;
     std::vector<char> find_moved(const Snapshot& snapshot, bool anew);
 
     const RenderScene* scene_;

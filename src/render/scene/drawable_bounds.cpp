@@ -68,7 +68,9 @@ PerDrawable<DrawableBounds> make_drawables(const RenderScene& scene, const Snaps
     PerDrawable<DrawableBounds> drawables;
     drawables.bodies.reserve(scene.bodies.size());
     for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-        drawables.bodies.push_back(bounds_of_body(scene.bodies[i], snapshot.bodies[i], view));
+        drawables.bodies.push_back(snapshot.bodies[i].absent
+                                       ? DrawableBounds{}
+                                       : bounds_of_body(scene.bodies[i], snapshot.bodies[i], view));
     for (const CordDescription& cord : scene.cords) drawables.cords.push_back(bounds_of_cord(cord, snapshot, view));
     return drawables;
 }
@@ -96,7 +98,7 @@ double least_depth(const RenderBody& proxy, const BodyState& state, const Boundi
 double near_distance_for(const RenderScene& scene, const Snapshot& snapshot, const Camera& view) {
     double nearest = view.target_distance();
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-        if (!scene.bodies[i].solid()) continue;
+        if (!scene.bodies[i].solid() || snapshot.bodies[i].absent) continue;
         const BoundingBall ball = bounding_ball(scene.bodies[i], snapshot.bodies[i], view);
         if (view.sees(ball.center, ball.radius))
             nearest = std::min(nearest, least_depth(scene.bodies[i], snapshot.bodies[i], ball, view));

@@ -31,7 +31,7 @@ bool PoseFilter::follows(std::size_t body) const { return std::ranges::binary_se
 
 bool PoseFilter::may_stay(std::size_t body, const Pose& drawn, const BodyState& state) const {
     const double radius = radii_[body];
-    if (radius == 0.0) return true;  // not drawn
+    if (radius == 0.0 || state.absent) return true;  // not drawn
     const double way = (state.origin - drawn.origin).norm();
     const double turn = std::min((state.orientation.coeffs() - drawn.orientation.coeffs()).norm(),
                                  (state.orientation.coeffs() + drawn.orientation.coeffs()).norm());
@@ -45,13 +45,13 @@ bool PoseFilter::may_stay(std::size_t body, const Pose& drawn, const BodyState& 
 
 bool PoseFilter::settle(std::size_t body, BodyState& state) {
     Pose& drawn = drawn_[body];
-    if (may_stay(body, drawn, state)) {
+    if (drawn.absent == state.absent && may_stay(body, drawn, state)) {
         state.origin = drawn.origin;
         state.orientation = drawn.orientation;
         state.center_of_mass = drawn.center_of_mass;
         return false;
     }
-    drawn = {state.origin, state.orientation, state.center_of_mass};
+    drawn = {state.origin, state.orientation, state.center_of_mass, state.absent};
     return true;
 }
 
@@ -72,14 +72,14 @@ bool PoseFilter::follow(Snapshot& snapshot) {
     bool moved = std::exchange(first_, false);
     if (moved)
         for (const BodyState& state : snapshot.bodies)
-            drawn_.push_back({state.origin, state.orientation, state.center_of_mass});
+            drawn_.push_back({state.origin, state.orientation, state.center_of_mass, state.absent});
     for (const std::size_t body : followed_)
         if (settle(body, snapshot.bodies[body])) moved = true;
     if (move_views(snapshot)) {
         for (std::size_t i = 0; i < drawn_.size(); ++i)
             if (!follows(i)) {
                 const BodyState& state = snapshot.bodies[i];
-                drawn_[i] = {state.origin, state.orientation, state.center_of_mass};
+                drawn_[i] = {state.origin, state.orientation, state.center_of_mass, state.absent};
             }
         return true;
     }

@@ -50,10 +50,11 @@ private:
         Vec3 origin;
         Quat orientation;
         Vec3 center_of_mass;  // which a camera may follow
+        bool absent = false;
         template <class Archive, class Self>
         static void visit(Archive& archive, Self& self) {
-            auto& [origin, orientation, center_of_mass] = self;
-            archive.keep(origin, orientation, center_of_mass);
+            auto& [origin, orientation, center_of_mass, absent] = self;
+            archive.keep(origin, orientation, center_of_mass, absent);
         }
     };
     bool follows(std::size_t body) const;

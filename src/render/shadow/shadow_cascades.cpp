@@ -197,7 +197,7 @@ ShadowCascades CascadeFitter::fit(const RenderScene& scene, const Snapshot& snap
         z;  // bounds of the casters of visible shadows; x and y in widths of the near map, from its corner
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         const RenderBody& proxy = scene.bodies[i];
-        if (!proxy.solid()) continue;
+        if (!proxy.solid() || snapshot.bodies[i].absent) continue;
         const BoundingBall ball = bounding_ball(proxy, snapshot.bodies[i], view);
         if (!view.sees_swept(ball.center, ball.radius, z_axis_)) continue;
         const Vec3 center = view.eye() + ball.center;

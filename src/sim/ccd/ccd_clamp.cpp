@@ -92,6 +92,12 @@ CcdClamp::CcdClamp(const std::vector<Body>& bodies)
     }
 }
 
+// A body of several pieces is as thin as the thinnest of them, which the least has seen.
+void CcdClamp::measure(std::uint32_t index, const Body& body) {
+    arm_[index] = ball(body) ? 0.0 : body.radius;
+    depth_[index] = std::isinf(body.radius) ? body.radius : depth(body);
+}
+
 // Decided without any pair: two slower bodies move no farther than the thinnest body is thin.
 bool CcdClamp::fast(std::uint32_t body, const BodyVelocity& motion, double h) const {
     return 2.0 * h * (motion.velocity.norm() + turning(arm_[body], motion)) > least_thin_;

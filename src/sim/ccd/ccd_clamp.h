@@ -58,6 +58,12 @@ class CcdClamp {
 public:
     explicit CcdClamp(const std::vector<Body>& bodies);
 
+    /// To be called when a body has another shape.
+    void measure(std::uint32_t index, const Body& body);
+    void measure(const std::vector<Body>& bodies) {
+        for (std::uint32_t i = 0; i < bodies.size(); ++i) measure(i, bodies[i]);
+    }
+
     /// True if the body moves so far in h seconds that it might pass another undetected. If no body does, there are no
     /// limits.
     bool fast(std::uint32_t body, const BodyVelocity& motion, double h) const;

@@ -93,10 +93,19 @@ bool BroadPhase::sound() const {
 }
 
 void BroadPhase::build(const std::vector<Body>& bodies) {
+    list_fixed(bodies);
+    states_.resize(bodies.size());
+    filters_ = LayerFilters(bodies);
+    built_ = true;
+}
+
+void BroadPhase::list_fixed(const std::vector<Body>& bodies) {
+    fixed_.clear();
+    half_spaces_.clear();
     std::vector<Bounds> fixed_bounds;
     for (std::uint32_t i = 0; i < bodies.size(); ++i) {
         const Body& body = bodies[i];
-        if (body.moves()) continue;
+        if (body.moves() || body.absent) continue;
         if (std::holds_alternative<HalfSpace>(body.collider))
             half_spaces_.push_back(i);
         else {
@@ -105,9 +114,29 @@ void BroadPhase::build(const std::vector<Body>& bodies) {
         }
     }
     fixed_tree_ = BoundsTree(std::move(fixed_bounds));
-    states_.resize(bodies.size());
-    filters_ = LayerFilters(bodies);
-    built_ = true;
+}
+
+void BroadPhase::exchange(const std::vector<Body>& bodies, std::span<const std::uint32_t> changed) {
+    search_awake_ = true;
+    if (built_)
+        list_fixed(bodies);
+    else
+        build(bodies);
+    const auto has_changed = [&](std::uint32_t i) { return std::binary_search(changed.begin(), changed.end(), i); };
+    std::erase_if(pairs_, [&](const Pair& pair) { return has_changed(pair.a) || has_changed(pair.b); });
+    DynamicTree::Stack stack;
+    for (const std::uint32_t i : changed) {
+        active_tree_.remove(i);
+        resting_tree_.remove(i);
+        states_[i] = {};
+        // A body that moves finds its pairs when the next update visits it; no update visits a fixed one.
+        if (bodies[i].absent || bodies[i].moves()) continue;
+        active_tree_.query(world_bounds(bodies[i].collider, bodies[i].pose()), stack, [&](std::uint32_t other) {
+            const Pair pair{std::min(i, other), std::max(i, other)};
+            if (!bodies[other].dynamic() || has_changed(other) || kept_apart(pair)) return;
+            pairs_.insert(std::lower_bound(pairs_.begin(), pairs_.end(), pair), pair);
+        });
+    }
 }
 
 void BroadPhase::find_awake(const std::vector<Body>& bodies) {

@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace tumble {
@@ -35,6 +36,9 @@ public:
 
     /// Pairs that are never found, ascending. Pairs of the last call are found again.
     void keep_apart(std::vector<Pair> pairs);
+
+    /// Bodies have vanished or appeared (Body::absent), or have other shapes: `changed`, ascending.
+    void exchange(const std::vector<Body>& bodies, std::span<const std::uint32_t> changed);
 
     /// Must be called when any body's `asleep` has been cleared: the next update then finds all awake bodies.
     void bodies_woke() { search_awake_ = true; }
@@ -61,6 +65,7 @@ private:
         return filters_.keep_apart(pair) || std::binary_search(apart_.begin(), apart_.end(), pair);
     }
     void build(const std::vector<Body>& bodies);
+    void list_fixed(const std::vector<Body>& bodies);
     void find_awake(const std::vector<Body>& bodies);
     bool stays(std::uint32_t i, const Body& body, double h);
     void find_leavers(const std::vector<Body>& bodies, double h, ThreadPool& pool);

@@ -208,6 +208,12 @@ bool NarrowPhase::match(const std::vector<BroadPhase::Pair>& pairs, const std::v
     return true;
 }
 
+void NarrowPhase::forget(std::span<const std::uint32_t> changed) {
+    for (const Entry& entry : entries_)
+        for (const std::uint32_t i : {entry.pair.a, entry.pair.b})
+            if (std::binary_search(changed.begin(), changed.end(), i)) searches_[entry.search] = {};
+}
+
 void NarrowPhase::park(const Entry& entry) {
     Parked& parked = parked_[entry.pair];
     parked.search = searches_[entry.search];

@@ -32,6 +32,9 @@ public:
     std::vector<Manifold>& find(const std::vector<BroadPhase::Pair>& pairs, const std::vector<Body>& bodies, double h,
                                 ThreadPool& pool);
 
+    /// The results of pairs with one of the bodies hold no longer: it has another shape. `changed` ascends.
+    void forget(std::span<const std::uint32_t> changed);
+
     /// The manifolds of the last call.
     std::vector<Manifold>& manifolds() { return manifolds_; }
     /// Body pairs of these manifolds, in their order: without fetching the manifolds from memory.

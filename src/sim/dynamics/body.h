@@ -36,6 +36,8 @@ struct Body {
     PairRules pair_rules;  // of the scene, at hand where two bodies meet
     bool placed = false;   // moves to a known end in this step (PlacedBodies)
     bool flew = false;     // moved in the last step by an integrator of higher order than the two Euler methods
+    bool absent = false;   // a piece that has not broken off, or a body in pieces: it has no effect (BreakableBody)
+    bool breakable = false;  // has bonds that may break
     double mass = 0.0, inverse_mass = 0.0;  // kg, 1/kg; the inverse is 0 for fixed and kinematic bodies (after eq. 20)
     double radius = 0.0;                    // m, about the center of mass; infinity for a half-space
     double restitution = 0.0, friction = 0.0;  // or value_of_other
@@ -87,12 +89,12 @@ struct Body {
     void derive_velocities();
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [type, integrator, spherical_top, asleep, flying, jointed, pair_rules, placed, flew, mass, inverse_mass,
-               radius, restitution, friction, drag_area, collider, track, inertia_body, inverse_inertia_body,
+        auto& [type, integrator, spherical_top, asleep, flying, jointed, pair_rules, placed, flew, absent, breakable, mass,
+               inverse_mass, radius, restitution, friction, drag_area, collider, track, inertia_body, inverse_inertia_body,
                principal_inertia, principal_axes, center_of_mass, gravity_scale, rolling_friction, spinning_friction,
                layers, collides_with, name, position, orientation, rotation, momentum, angular_momentum, velocity,
                angular_velocity, inverse_inertia, gyration, correction_velocity, correction_angular_velocity] = self;
-        archive.rebuilt(type, integrator, spherical_top, pair_rules, mass, inverse_mass, radius, restitution, friction,
+        archive.rebuilt(absent, breakable, type, integrator, spherical_top, pair_rules, mass, inverse_mass, radius, restitution, friction,
                         drag_area, collider, track, inertia_body, inverse_inertia_body, principal_inertia,
                         principal_axes, center_of_mass, gravity_scale, rolling_friction, spinning_friction, layers,
                         collides_with, name);

@@ -65,6 +65,22 @@ CollisionShape BodyBuilder::collider(const BodyDescription& d, const Vec3& cente
     return shifted;
 }
 
+void give_mass(Body& body, const MassProperties& mass, CollisionShape collider) {
+    body.center_of_mass = mass.center_of_mass;
+    body.collider = std::move(collider);
+    body.radius = bounding_radius(body.collider);
+    if (!body.dynamic()) return;
+    body.mass = mass.mass;
+    body.inverse_mass = 1.0 / mass.mass;
+    body.inertia_body = mass.inertia;
+    body.inverse_inertia_body = mass.inertia.inverse();
+    body.spherical_top = mass.inertia == Mat3(mass.inertia(0, 0) * Mat3::Identity());
+    const PrincipalInertia principal = principal_inertia(mass.inertia);
+    body.principal_inertia = principal.moments;
+    body.principal_axes = principal.axes;
+    body.drag_area = mean_projected_area(body.collider);
+}
+
 Body BodyBuilder::build(const BodyDescription& d, IntegratorKind integrator) {
     Body body;
     body.name = d.name;
@@ -77,20 +93,7 @@ Body BodyBuilder::build(const BodyDescription& d, IntegratorKind integrator) {
     body.gravity_scale = d.gravity_scale;
     body.integrator = d.integrator.value_or(integrator);
     const MassProperties mass = mass_properties(d);
-    body.center_of_mass = mass.center_of_mass;
-    body.collider = collider(d, mass.center_of_mass);
-    body.radius = bounding_radius(body.collider);
-    if (d.type == BodyType::dynamic) {
-        body.mass = mass.mass;
-        body.inverse_mass = 1.0 / mass.mass;
-        body.inertia_body = mass.inertia;
-        body.inverse_inertia_body = mass.inertia.inverse();
-        body.spherical_top = mass.inertia == Mat3(mass.inertia(0, 0) * Mat3::Identity());
-        const PrincipalInertia principal = principal_inertia(mass.inertia);
-        body.principal_inertia = principal.moments;
-        body.principal_axes = principal.axes;
-        body.drag_area = mean_projected_area(body.collider);
-    }
+    give_mass(body, mass, collider(d, mass.center_of_mass));
     set_motion(body, d);
     return body;
 }

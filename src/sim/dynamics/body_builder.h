@@ -24,6 +24,10 @@ private:
     ColliderCache made_;
 };
 
+/// Mass and collision shape, which has its origin in the center of mass, and the quantities that follow from them. A
+/// body that is not dynamic has no mass.
+void give_mass(Body& body, const MassProperties& mass, CollisionShape collider);
+
 /// All bodies of a scene, in the scene's order.
 std::vector<Body> build_bodies(const SceneDescription& scene);
 

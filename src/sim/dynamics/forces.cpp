@@ -1,10 +1,12 @@
 #include "sim/dynamics/forces.h"
 
+#include "core/sort_unique.h"
 #include "sim/math/free_rotation.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace tumble {
 namespace {
@@ -85,6 +87,21 @@ void ForceField::light_explosions(const std::vector<Body>& bodies, double from, 
                                      impulse / (to - start), false, start, to});
         }
     }
+}
+
+void ForceField::move_points(std::size_t from, const std::function<std::uint32_t(const Vec3& point)>& to) {
+    for (const ForceDescription& force : std::exchange(at_points_[from], {})) {
+        const std::uint32_t body = to(force.point);
+        at_points_[body].push_back(force);
+        pushed_.push_back(body);
+    }
+    sort_unique(pushed_);
+}
+
+void ForceField::each_point(std::size_t index, double time,
+                            const std::function<void(const ForceDescription&)>& use) const {
+    for (const ForceDescription& f : at_points_[index])
+        if (time >= f.start && time < f.end) use(f);
 }
 
 void ForceField::hold_pairs(const std::vector<Body>& bodies, double from, double to) {

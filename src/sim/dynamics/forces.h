@@ -9,6 +9,7 @@
 #include "sim/math/wrench.h"
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -26,6 +27,11 @@ public:
     /// Turns the explosions in [from, to), the step that begins, into forces at points of the bodies at their present
     /// poses. They end with the step.
     void light_explosions(const std::vector<Body>& bodies, double from, double to);
+    /// The forces at points of a body (m, body frame, from its origin) act on other bodies with the same frame: on that
+    /// which `to` names.
+    void move_points(std::size_t from, const std::function<std::uint32_t(const Vec3& point)>& to);
+    /// Calls `use` for each force at a point of the body at a time, s.
+    void each_point(std::size_t index, double time, const std::function<void(const ForceDescription&)>& use) const;
     bool has_potential() const { return !place_.empty() || !pairs_.empty(); }
     /// J, in fields and in forces between bodies.
     double potential(const std::vector<Body>& bodies) const;

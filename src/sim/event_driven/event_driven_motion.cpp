@@ -60,15 +60,63 @@ EventDrivenMotion::EventDrivenMotion(const std::vector<Body>& bodies, const Simu
     for (std::uint32_t i = 0; i < bodies.size(); ++i) {
         start(i, Trajectory::uniform(bodies[i], Vec3::Zero(), Vec3::Zero()), {}, never);
         if (const auto* ball = std::get_if<Ball>(&bodies[i].collider)) balls_[i].radius = ball->radius;
-        if (bodies[i].moves()) {
-            movers_.push_back(i);
-        } else if (const auto* space = std::get_if<HalfSpace>(&bodies[i].collider)) {
+        if (bodies[i].moves() || bodies[i].absent) continue;
+        if (const auto* space = std::get_if<HalfSpace>(&bodies[i].collider)) {
             const Vec3 normal = bodies[i].rotation * space->normal;
             half_spaces_[i] = {normal, space->offset + normal.dot(bodies[i].position), true};
         } else {
             events_[i].swept = world_bounds(bodies[i].collider, bodies[i].pose());
         }
     }
+    list_movers(bodies);
+}
+
+void EventDrivenMotion::list_movers(const std::vector<Body>& bodies) {
+    movers_.clear();
+    for (std::uint32_t i = 0; i < bodies.size(); ++i)
+        if (bodies[i].moves()) movers_.push_back(i);
+}
+
+void EventDrivenMotion::exchange(const std::vector<Body>& bodies, std::span<const std::uint32_t> changed,
+                                 const EventTime& now) {
+    list_movers(bodies);
+    neighbor_boxes_.exchange(bodies, changed);
+    for (const std::uint32_t i : changed) {
+        queue_.remove(i);
+        ccd_clamp_.measure(i, bodies[i]);
+        const std::uint32_t version = events_[i].version;
+        events_[i] = {};
+        events_[i].version = version;
+        start(i, Trajectory::uniform(bodies[i], bodies[i].velocity, bodies[i].angular_velocity), now, never);
+        if (!bodies[i].moves()) events_[i].swept = world_bounds(bodies[i].collider, bodies[i].pose());
+        if (bodies[i].moves()) box(i, bodies, now);
+    }
+}
+
+void EventDrivenMotion::measure(const std::vector<Body>& bodies) {
+    list_movers(bodies);
+    neighbor_boxes_.list_fixed(bodies);
+    ccd_clamp_.measure(bodies);
+}
+
+// The pieces go on in contact until the step ends; the bodies that struck them as after an impact.
+void EventDrivenMotion::break_bodies(const BlowResult& blow, std::vector<Body>& bodies, SleepMonitor& sleep,
+                                     const ForceField& forces, const EventTime& now) {
+    const std::vector<std::uint32_t> changed = changed_bodies(blow.partings);
+    exchange(bodies, changed, now);
+    until_ = std::min(until_, now.step + 1);
+    for (const std::uint32_t k : blow.struck) {
+        if (bodies[k].asleep) wake(k, bodies, sleep, now);
+        events_[k].spin = unknown;
+        changed_.push_back(k);
+        if (std::binary_search(changed.begin(), changed.end(), k)) give_rest_of_step(k, bodies, forces, now);
+    }
+    if (!groups_.empty()) end_group_flights(bodies, now);
+    sort_unique(changed_);
+    for (const std::uint32_t k : changed_)
+        if (bodies[k].flying && !flies_joined(k, bodies)) fly(k, bodies, forces, now);
+    hold_receivers(bodies, forces, now);
+    predict_changed(bodies, now);
 }
 
 EventTime EventDrivenMotion::later(const EventTime& now, double seconds) const {
@@ -437,6 +485,12 @@ void EventDrivenMotion::collide(std::uint32_t i, std::uint32_t j, std::vector<Bo
         return std::max(0.0, -h_ * pressing_acceleration(c, gap, bodies, free_motion(forces, now), supports_));
     };
     if (meeting) support_stepped(bodies);
+    const BlowResult* blow = nullptr;
+    ImpactCluster::Strike strike;
+    if (strike_)
+        strike = [&](const Island& island, const std::vector<Contact>& contacts, const ImpactSettings& settings) {
+            return (blow = strike_(island, contacts, settings, impact_time(now))) != nullptr;
+        };
     const bool changed =
         cluster_.resolve(i, j, bodies, neighbor_boxes_, bring_body, meeting ? ImpactCluster::LoadSpeed(load) : nullptr,
                          {.threshold = threshold,
@@ -445,7 +499,8 @@ void EventDrivenMotion::collide(std::uint32_t i, std::uint32_t j, std::vector<Bo
                           .friction = true,
                           .complete = true,
                           .span = h_},
-                         log_ ? &trace_ : nullptr);
+                         log_ ? &trace_ : nullptr, strike);
+    if (cluster_.broke()) return break_bodies(*blow, bodies, sleep, forces, now);
     if (log_ && changed)
         log_->add_impact(trace_, cluster_.contacts(), bodies, impact_time(now), cluster_.joint_impulses());
     if (!changed && meeting) {  // no more of these in this step

@@ -22,6 +22,7 @@
 #include "sim/event_driven/group_flights.h"
 #include "sim/event_driven/impact_cluster.h"
 #include "sim/event_driven/neighbor_boxes.h"
+#include "sim/fracture/blow.h"
 #include "sim/impact/impacts.h"
 #include "sim/snapshot/contact_records.h"
 
@@ -82,6 +83,15 @@ public:
     std::int64_t run(std::vector<Body>& bodies, SleepMonitor& sleep, const ForceField& forces, std::int64_t until);
     /// Where impacts and the contacts of landings are recorded; null: nowhere. It must outlive the last run().
     void record_in(ContactLog* log) { log_ = log; }
+    /// Blows that break a body, at the time of an impact; null without breakable bodies. The result is that of the last
+    /// one. Both must outlive the last run().
+    using Strike = std::function<const BlowResult*(const Island&, const std::vector<Contact>&, const ImpactSettings&,
+                                                   const ImpactTime&)>;
+    void break_by(Strike strike) { strike_ = std::move(strike); }
+    /// Bodies have vanished or appeared at the start of a step.
+    void exchange(const std::vector<Body>& bodies, std::span<const std::uint32_t> changed, const EventTime& now);
+    /// Bodies have other shapes than those that it was built with; no body has another motion.
+    void measure(const std::vector<Body>& bodies);
     /// True if all events before the step have been processed, and none after it.
     bool stands_at(std::int64_t step) const {
         return until_ == step && (queue_.empty() || !(queue_.first_moment() < EventTime{step, 0.0}));
@@ -97,8 +107,8 @@ public:
         auto& [settings, clock, h, events, balls, half_spaces, movers, neighbor_boxes, queue, search, groups, cluster,
                log, trace, totals, ccd_clamp, motions, islands, contact_solver, alone, contact_manifolds,
                velocities_before, impacts_in_frame, frame, until, taken_off, changed, was_asleep, rolled, supports,
-               at_start] = self;
-        archive.rebuilt(settings, clock, h, half_spaces, movers, log, motions, islands, at_start);
+               at_start, strike] = self;
+        archive.rebuilt(settings, clock, h, half_spaces, movers, log, motions, islands, at_start, strike);
         archive.keep_each(balls);
         archive.by_body(events);
         archive.by_body(velocities_before);
@@ -195,6 +205,9 @@ private:
     bool bounce_balls(std::uint32_t i, std::uint32_t j, const std::vector<Body>& bodies, const EventTime& now);
     bool alone(std::uint32_t i, std::uint32_t but, const Vec3& at, const std::vector<Body>& bodies,
                const EventTime& now) const;
+    void break_bodies(const BlowResult& blow, std::vector<Body>& bodies, SleepMonitor& sleep, const ForceField& forces,
+                      const EventTime& now);
+    void list_movers(const std::vector<Body>& bodies);
     void count_impact(std::uint32_t i, const std::vector<Body>& bodies, const EventTime& now);
     bool below_zeno_limit(std::uint32_t i, const std::vector<Body>& bodies, double speed) const;
     double zeno_limit(std::uint32_t i) const;
@@ -255,6 +268,7 @@ private:
     std::vector<RolledContact> rolled_;                            // bodies that have landed in the event at hand
     Supports supports_;
     const std::vector<BodyVelocity>* at_start_ = nullptr;
+    Strike strike_;
 };
 
 }  // namespace tumble

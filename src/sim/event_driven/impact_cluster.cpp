@@ -177,9 +177,10 @@ void ImpactCluster::resolve_island(Island& island, std::vector<Body>& bodies, co
 
 bool ImpactCluster::resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>& bodies,
                             const NeighborBoxes& neighbor_boxes, const Bring& bring, const LoadSpeed& load,
-                            const ImpactSettings& settings, ImpactTrace* trace) {
+                            const ImpactSettings& settings, ImpactTrace* trace, const Strike& strike) {
     receivers_.clear();
     broken_.clear();
+    broke_ = false;
     // If the manifold misses the contact that the search found, a wider margin finds it.
     for (widening_ = 1.0; widening_ <= 1e4 && receivers_.empty(); widening_ *= 1e2) {
         brought_.clear();
@@ -189,6 +190,7 @@ bool ImpactCluster::resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>&
         manifolds_.clear();
         expand(a, bodies, neighbor_boxes, bring);
         expand(b, bodies, neighbor_boxes, bring);
+        Island reached;
         for (bool grown = true; grown;) {
             std::sort(manifolds_.begin(), manifolds_.end(), [](const Manifold& l, const Manifold& r) {
                 return std::tie(l.a, l.b, l.part) < std::tie(r.a, r.b, r.part);
@@ -198,7 +200,7 @@ bool ImpactCluster::resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>&
             if (load)
                 for (std::size_t i = 0; i < contacts_.size(); ++i)
                     contacts_[i].load_speed = load(contacts_[i], gaps_[i]);
-            Island reached = island(bodies, bring);
+            reached = island(bodies, bring);
             before_.clear();
             for (const Contact& c : contacts_) before_.push_back(relative_velocity(c, bodies[c.a], bodies[c.b]));
             resolve_island(reached, bodies, settings, trace);
@@ -206,6 +208,7 @@ bool ImpactCluster::resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>&
             for (const std::uint32_t k : reached.bodies) bodies[k].derive();  // the velocities before the impact
             grown = grow(bodies, neighbor_boxes, bring);
         }
+        if (strike && strike(reached, contacts_, settings)) return broke_ = true;
         for (const Contact& c : contacts_) {
             if (c.impact <= 0.0) continue;
             add_impact(c, bodies[c.a], bodies[c.b]);

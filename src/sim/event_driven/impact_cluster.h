@@ -35,15 +35,19 @@ public:
     /// `groups`: of joined bodies. It must outlive the cluster.
     explicit ImpactCluster(GroupFlights& groups) : groups_(groups) { scratch_.choice = AxisChoice::nearest; }
 
+    /// Resolves a blow on the contacts of a cluster that breaks a body; returns whether one broke.
+    using Strike = std::function<bool(const Island&, const std::vector<Contact>&, const ImpactSettings&)>;
     /// Load speed of a contact, m/s.
     using LoadSpeed = std::function<double(const Contact&, const Gap&)>;
 
     /// Resolves the impact of bodies `a` and `b` and its cluster; momenta and velocities are changed in place. Returns
     /// whether anything changed. Joints whose strength the impact exceeds break (joint_strength.h). `trace`: gets the
-    /// impulses on contacts(), or null. `load`: null where contacts have none.
+    /// impulses on contacts(), or null. `load`: null where contacts have none. `strike`: null without breakable bodies;
+    /// where it breaks one, the cluster leaves the impact to it, and broke() is true.
     bool resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>& bodies, const NeighborBoxes& neighbor_boxes,
                  const Bring& bring, const LoadSpeed& load, const ImpactSettings& settings,
-                 ImpactTrace* trace = nullptr);
+                 ImpactTrace* trace = nullptr, const Strike& strike = nullptr);
+    bool broke() const { return broke_; }
 
     /// Results of the last call: the contacts examined, and the dynamic bodies that got an impulse, ascending.
     const std::vector<Contact>& contacts() const { return contacts_; }
@@ -58,11 +62,11 @@ public:
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
         auto& [groups, brought, expanded, examined, receivers, pairs, manifolds, contacts, gaps, own, before, reach,
-               scratch, widening, broken, joint_impulses] = self;
+               scratch, widening, broken, joint_impulses, broke] = self;
         archive.rebuilt(groups);
         archive.keep(scratch, widening);
         archive.scratch(brought, expanded, examined, receivers, pairs, manifolds, contacts, gaps, own, before, reach,
-                        broken, joint_impulses);
+                        broken, joint_impulses, broke);
     }
 
 private:
@@ -92,6 +96,7 @@ private:
     double widening_ = 1.0;
     std::vector<Joint*> broken_;
     std::vector<JointImpulse> joint_impulses_;  // of the last resolution
+    bool broke_ = false;
 };
 
 }  // namespace tumble

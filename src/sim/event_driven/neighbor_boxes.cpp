@@ -6,9 +6,17 @@ namespace tumble {
 
 NeighborBoxes::NeighborBoxes(const std::vector<Body>& bodies)
     : moving_(bodies.size()), standing_(bodies.size()), filters_(bodies) {
+    list_fixed(bodies);
+}
+
+void NeighborBoxes::list_fixed(const std::vector<Body>& bodies) {
+    half_spaces_.clear();
+    fixed_.clear();
+    movers_ = 0;
     std::vector<Bounds> bounds;
     for (std::uint32_t i = 0; i < bodies.size(); ++i) {
         const Body& body = bodies[i];
+        if (body.absent) continue;
         if (std::holds_alternative<HalfSpace>(body.collider)) {
             half_spaces_.push_back(i);
         } else if (body.moves()) {
@@ -19,6 +27,18 @@ NeighborBoxes::NeighborBoxes(const std::vector<Body>& bodies)
         }
     }
     fixed_tree_ = BoundsTree(std::move(bounds));
+}
+
+void NeighborBoxes::exchange(const std::vector<Body>& bodies, std::span<const std::uint32_t> changed) {
+    list_fixed(bodies);
+    for (const std::uint32_t i : changed) {
+        for (const std::uint32_t other : moving_[i]) std::erase(moving_[other], i);
+        moving_[i].clear();
+        standing_[i].clear();
+        tree_.remove(i);
+    }
+    for (std::uint32_t i = 0; i < bodies.size(); ++i)
+        if (known(i)) enclose(i, Bounds(tree_.box(i)));
 }
 
 bool NeighborBoxes::encloses(std::uint32_t body, const Bounds& box) const {

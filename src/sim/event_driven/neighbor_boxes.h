@@ -9,6 +9,7 @@
 #include "sim/math/bounds_tree.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace tumble {
@@ -19,6 +20,9 @@ public:
 
     /// Puts the body into this box and finds its neighbors; updates their lists.
     void enclose(std::uint32_t body, const Bounds& box);
+    void list_fixed(const std::vector<Body>& bodies);
+    /// Bodies have vanished or appeared, `changed`: none of them has a box then.
+    void exchange(const std::vector<Body>& bodies, std::span<const std::uint32_t> changed);
     /// Pairs that are no neighbors, ascending: bodies of joints.
     void keep_apart(std::vector<BodyPair> pairs);
     bool known(std::uint32_t body) const { return tree_.holds(body); }

@@ -34,7 +34,7 @@ double largest_load(std::span<const Wrench> wrenches, double lever) {
 }  // namespace
 
 BondGraph::BondGraph(const FractureDescription& fracture, std::vector<MassProperties> cells)
-    : fracture_(fracture),
+    : fracture_(&fracture),
       bonds_(fracture.bonds),
       cells_(std::move(cells)),
       intact_(bonds_.size(), 1),
@@ -222,10 +222,10 @@ BondStress BondGraph::stress(std::size_t i, const Wrench& wrench) const {
 
 double BondGraph::utilization(std::size_t i, const Wrench& wrench) const {
     const BondStress s = stress(i, wrench);
-    double most = std::max((std::max(s.tension, 0.0) + s.bending) / fracture_.strength,
-                           (s.shear + s.torsion) / fracture_.shear_strength);
-    if (fracture_.compressive_strength > 0.0)
-        most = std::max(most, (std::max(-s.tension, 0.0) + s.bending) / fracture_.compressive_strength);
+    double most = std::max((std::max(s.tension, 0.0) + s.bending) / fracture_->strength,
+                           (s.shear + s.torsion) / fracture_->shear_strength);
+    if (fracture_->compressive_strength > 0.0)
+        most = std::max(most, (std::max(-s.tension, 0.0) + s.bending) / fracture_->compressive_strength);
     return most;
 }
 

@@ -68,7 +68,7 @@ private:
     std::vector<Wrench> with_bonds(std::vector<Wrench> loads) const;
     void add_displacement();
 
-    const FractureDescription& fracture_;
+    const FractureDescription* fracture_;
     std::span<const Bond> bonds_;
     std::vector<MassProperties> cells_;
     std::vector<Stiffness> stiffness_;  // of each bond

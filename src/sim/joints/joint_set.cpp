@@ -189,6 +189,12 @@ void JointSet::begin_step(double from, double to, const std::vector<Body>& bodie
     if (changed) list();
 }
 
+void JointSet::exchange(std::vector<Body>& bodies) {
+    if (empty()) return;
+    list();
+    mark(bodies);
+}
+
 void JointSet::mark(std::vector<Body>& bodies) const {
     for (Body& body : bodies) body.jointed = false;
     for (const BodyPair& pair : pairs_)

@@ -35,6 +35,8 @@ public:
 
     double from() const { return from_; }  // s, of this step
     double to() const { return to_; }
+    /// Joints have other bodies.
+    void exchange(std::vector<Body>& bodies);
     /// Sets Body::jointed of all bodies.
     void mark(std::vector<Body>& bodies) const;
 

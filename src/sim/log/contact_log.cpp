@@ -92,7 +92,7 @@ void ContactLog::begin_frame(const std::vector<Body>& bodies) {
     records_.struck.clear();
     records_.contacts.clear();
     records_.loads.clear();
-    friction_ = 0.0;
+    friction_ = handed_over_ = surface_ = 0.0;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         accounts_[i] = {};
         if (!bodies[i].dynamic()) continue;
@@ -414,9 +414,38 @@ void ContactLog::add_corrections(const std::vector<Body>& bodies, double duratio
     }
 }
 
+void ContactLog::hand_over(std::uint32_t whole, bool was_dynamic, std::span<const std::uint32_t> pieces,
+                           const std::vector<Body>& bodies) {
+    Account& account = accounts_[whole];
+    double now = 0.0;
+    for (const std::uint32_t i : pieces)
+        if (bodies[i].dynamic()) {
+            now += energy(bodies[i]);
+            if (!was_dynamic) now -= bodies[i].mass * bodies[i].fall(gravity_).dot(origin_);
+        }
+    if (!was_dynamic)
+        records_.energy.work += now;
+    else if (account.touched)
+        handed_over_ -= now - account.energy - account.work - account.joints;
+    records_.energy.work += account.work;
+    account = {};
+    for (const std::uint32_t i : pieces) {
+        accounts_[i] = {};
+        if (!bodies[i].dynamic()) continue;
+        accounts_[i].start = momenta(bodies[i]);
+        accounts_[i].energy = energy(bodies[i]);
+        start_flight(i, bodies[i]);
+    }
+}
+
+void ContactLog::add_surface(double energy, std::span<const std::uint32_t> struck) {
+    surface_ += energy;
+    for (const std::uint32_t i : struck) accounts_[i].touched = true;
+}
+
 // Bodies in free flight lose nothing: a change of their energy is an error of the integrator.
 void ContactLog::add_losses(const std::vector<Body>& bodies) {
-    double lost = 0.0;
+    double lost = handed_over_ - surface_;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         if (!bodies[i].dynamic()) continue;
         records_.energy.work += accounts_[i].work;
@@ -425,6 +454,7 @@ void ContactLog::add_losses(const std::vector<Body>& bodies) {
     }
     records_.energy.friction_loss += friction_;
     records_.energy.impact_loss += lost - friction_;
+    records_.energy.surface += surface_;
 }
 
 // With indices of the scene, A before B.

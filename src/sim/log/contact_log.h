@@ -58,6 +58,13 @@ public:
     void add_joint(std::uint32_t a, std::uint32_t b, const Impulse& on_b, double work_a, double work_b);
     static constexpr std::uint32_t nobody = UINT32_MAX;
 
+    /// The pieces of a body take over its momenta and its energy; all move as it did. Its losses of this frame remain.
+    /// Pieces of a body that was not dynamic bring their energy as work.
+    void hand_over(std::uint32_t whole, bool was_dynamic, std::span<const std::uint32_t> pieces,
+                   const std::vector<Body>& bodies);
+    /// Adds the energy (J) that new surfaces took from the bodies of an impact.
+    void add_surface(double energy, std::span<const std::uint32_t> struck);
+
     /// Adds gravity's impulse over `span` s on a body whose center is at `place` (m).
     void add_gravity(std::uint32_t index, const Body& body, double span, const Vec3& place);
     /// Adds the impulse of other forces; `mean`: the mean of the velocities before and after it.
@@ -79,10 +86,11 @@ public:
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [detail, scene_index, origin, gravity, sums, asleep, accounts, struck, friction, records] = self;
+        auto& [detail, scene_index, origin, gravity, sums, asleep, accounts, struck, friction, handed_over,
+               surface, records] = self;
         archive.rebuilt(detail, scene_index, origin, gravity, struck);
         archive.keep(asleep, records.energy);
-        archive.scratch(sums, accounts, friction);
+        archive.scratch(sums, accounts, friction, handed_over, surface);
     }
 
 private:
@@ -148,6 +156,8 @@ private:
     std::vector<Account> accounts_;        // by body
     std::vector<std::size_t> struck_;      // by body: its entry in the records, of the impact that is added
     double friction_ = 0.0;                // J, lost in this frame
+    double handed_over_ = 0.0;  // J, lost in this frame by bodies that have broken since
+    double surface_ = 0.0;      // J, in surfaces of this frame
     ContactRecords records_;
 };
 

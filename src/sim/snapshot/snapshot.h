@@ -19,12 +19,13 @@ struct BodyState {
     Vec3 momentum = Vec3::Zero();          // kg m/s
     Vec3 angular_momentum = Vec3::Zero();  // kg m^2/s, about the center of mass
     bool asleep = false;
+    bool absent = false;  // a piece that has not broken off, or a body in pieces: not to be shown
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
         auto& [origin, center_of_mass, orientation, velocity, angular_velocity, mass, momentum, angular_momentum,
-               asleep] = self;
+               asleep, absent] = self;
         archive.keep(origin, center_of_mass, orientation, velocity, angular_velocity, mass, momentum, angular_momentum,
-                     asleep);
+                     asleep, absent);
     }
 };
 

@@ -30,8 +30,21 @@ BodySet::BodySet(const SceneDescription& scene) {
     for (std::uint32_t i = 0; i < bodies.size(); ++i) of_scene[scene_index[i]] = i;
     old_velocities.resize(bodies.size());
     motions.resize(bodies.size());
+    list_kinematic();
+}
+
+void BodySet::list_kinematic() {
+    kinematic.clear();
     for (std::uint32_t i = 0; i < bodies.size(); ++i)
         if (bodies[i].track) kinematic.push_back(i);
+}
+
+void BodySet::exchange(std::span<const std::uint32_t> changed) {
+    list_kinematic();
+    for (const std::uint32_t i : changed) {
+        old_velocities[i] = {bodies[i].velocity, bodies[i].angular_velocity};
+        motions[i] = {};
+    }
 }
 
 bool BodySet::list(const SleepMonitor& sleep) {
@@ -44,6 +57,7 @@ bool BodySet::list(const SleepMonitor& sleep) {
 }
 
 void BodySet::list() {
+    list_kinematic();
     awake.clear();
     moving.clear();
     for (std::uint32_t i = 0; i < bodies.size(); ++i) {

@@ -7,6 +7,7 @@
 #include "sim/event_driven/event_time.h"
 
 #include <cstdint>
+#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -28,6 +29,8 @@ struct BodySet {
 
     /// Updates the lists if a body has fallen asleep or woken. Returns whether they changed.
     bool list(const SleepMonitor& sleep);
+    /// Bodies have vanished or appeared, at rest relative to the step's start; `changed` ascends.
+    void exchange(std::span<const std::uint32_t> changed);
     /// Places the kinematic bodies on their tracks at the start of a step, with the velocities of that step.
     void place_kinematic(const StepClock& clock, std::int64_t step);
 
@@ -36,16 +39,17 @@ struct BodySet {
     static void visit(Archive& archive, Self& self) {
         auto& [origin, bodies, scene_index, of_scene, awake, moving, kinematic, old_velocities, motions,
                seen_sleep_changes] = self;
-        archive.rebuilt(origin, scene_index, of_scene, kinematic, seen_sleep_changes);
+        archive.rebuilt(origin, scene_index, of_scene, seen_sleep_changes);
         archive.by_body(old_velocities);
         archive.by_body(motions);
         archive.keep_each(bodies);
-        archive.scratch(awake, moving);  // follow from the bodies
+        archive.scratch(awake, moving, kinematic);  // follow from the bodies
         if constexpr (!std::is_const_v<Self>) self.list();
     }
 
 private:
     void list();
+    void list_kinematic();
 
     std::uint64_t seen_sleep_changes_ = UINT64_MAX;
 };

@@ -47,6 +47,12 @@ public:
     /// Islands with joints that move for a fraction of the step, by the last limits().
     std::span<const std::size_t> clamped_islands() const { return clamped_islands_; }
 
+    /// Bodies have other shapes.
+    void measure(const std::vector<Body>& bodies, std::span<const std::uint32_t> changed) {
+        for (const std::uint32_t i : changed) clamp_.measure(i, bodies[i]);
+    }
+    void measure(const std::vector<Body>& bodies) { clamp_.measure(bodies); }
+
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {

@@ -34,6 +34,13 @@ public:
     /// Pairs of bodies that do not collide, ascending.
     void keep_apart(std::vector<BodyPair> pairs) { broad_phase_.keep_apart(std::move(pairs)); }
 
+    /// See BroadPhase::exchange().
+    void exchange(const std::vector<Body>& bodies, std::span<const std::uint32_t> changed) {
+        broad_phase_.exchange(bodies, changed);
+        narrow_phase_.forget(changed);
+        current_ = false;
+    }
+
     /// The pairs that may meet in the step, at the bodies' present velocities.
     const std::vector<BroadPhase::Pair>& find_pairs(const StepContext& step);
 

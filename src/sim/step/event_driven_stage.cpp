@@ -2,6 +2,7 @@
 
 #include "sim/checkpoint/archive.h"
 #include "sim/dynamics/integrators/gyroscopic_correction.h"
+#include "sim/step/fracture_stage.h"
 #include "sim/step/placed_bodies.h"
 #include "sim/step/rolling_motion.h"
 
@@ -12,6 +13,11 @@ std::int64_t EventDrivenStage::run_events(const StepContext& step, std::int64_t 
     events_.record_in(step.log);
     events_.start_from(step.set.old_velocities);
     events_.join(step.joints, bodies, step.forces.field());
+    if (!step.fracture.empty())
+        events_.break_by([&](const Island& island, const std::vector<Contact>& contacts,
+                             const ImpactSettings& settings, const ImpactTime& when) {
+            return step.fracture.strike(island, contacts, settings, when, step);
+        });
     const std::int64_t reached = events_.run(bodies, step.sleep, step.forces.field(), until);
     events_.place(bodies, reached);
     step.check.examine(step.set.awake, bodies, step.pool);
@@ -72,6 +78,16 @@ void EventDrivenStage::advance(const StepContext& step, ContactDetection& detect
     events_.begin_step(set.bodies, set.motions, limits, step.forces.field(), step.index);
     run_events(step, step.index + 1);
     events_.end_flights();
+}
+
+void EventDrivenStage::exchange(const StepContext& step, std::span<const std::uint32_t> changed) {
+    motions_.measure(step.set.bodies, changed);
+    events_.exchange(step.set.bodies, changed, {step.index, 0.0});
+}
+
+void EventDrivenStage::measure(const std::vector<Body>& bodies) {
+    motions_.measure(bodies);
+    events_.measure(bodies);
 }
 
 void EventDrivenStage::save(CheckpointWriter& writer) const { visit(writer, *this); }

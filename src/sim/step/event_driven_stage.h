@@ -24,6 +24,8 @@ public:
     void advance(const StepContext& step, ContactDetection& detection) override;
     std::span<const std::size_t> clamped_islands() const override { return motions_.clamped_islands(); }
     void bodies_fell_asleep(const StepContext& step) override { events_.lay_down(step.set.bodies, step.index); }
+    void exchange(const StepContext& step, std::span<const std::uint32_t> changed) override;
+    void measure(const std::vector<Body>& bodies) override;
     void save(CheckpointWriter& writer) const override;
     void restore(CheckpointReader& reader, std::int64_t step) override;
 

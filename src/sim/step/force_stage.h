@@ -18,6 +18,11 @@ public:
 
     const ForceField& field() const { return field_; }
 
+    /// See ForceField::move_points().
+    void move_points(std::size_t from, const std::function<std::uint32_t(const Vec3& point)>& to) {
+        field_.move_points(from, to);
+    }
+
     /// Begins the explosions of the step.
     void begin(const StepContext& step);
     /// Wakes bodies on which a force begins or ends in the step.

@@ -51,7 +51,7 @@ constexpr std::size_t most_hits_each = 4;
 // Two bodies whose hits have their own times. In a crowd of bodies with faces the motion depends on many contacts: the
 // impact at the end of the step costs less, and its error does not show.
 bool takes_part(const Body& a, const Body& b, std::size_t pairs) {
-    if (a.jointed || b.jointed || flat(a) || flat(b)) return false;
+    if (a.jointed || b.jointed || a.breakable || b.breakable || flat(a) || flat(b)) return false;
     if (ball(a) && ball(b)) return true;
     if (ball(a) || ball(b)) return pairs <= most_pairs_of_edges;
     // Faces without restitution stop at the surface.

@@ -48,6 +48,17 @@ bool collides(std::size_t island, ContactDetection& detection, const StepContext
 
 }  // namespace
 
+Island island_of(std::size_t k, const ContactIslands& islands, JointSet& joints) {
+    Island island;
+    island.bodies.assign(islands.bodies(k).begin(), islands.bodies(k).end());
+    island.all_joints = joints.joints();
+    for (const std::uint32_t j : islands.joints(k)) {
+        Joint& joint = joints.joints()[joints.active()[j]];
+        if (!joint.broken) island.joints.push_back(&joint);
+    }
+    return island;
+}
+
 double ImpactStage::threshold(const StepContext& step) { return tuning::restitution_threshold * step.gravity_speed(); }
 
 void ImpactStage::resolve(const StepContext& step, ContactDetection& detection) {
@@ -74,13 +85,7 @@ void ImpactStage::resolve(const StepContext& step, ContactDetection& detection) 
 void ImpactStage::add_island(std::size_t k, const StepContext& step, ContactDetection& detection) {
     const ContactIslands& islands = detection.islands();
     const std::vector<Manifold>& manifolds = detection.manifolds();
-    Island& island = colliding_.emplace_back();
-    island.bodies.assign(islands.bodies(k).begin(), islands.bodies(k).end());
-    island.all_joints = step.joints.joints();
-    for (const std::uint32_t j : islands.joints(k)) {
-        Joint& joint = step.joints.joints()[step.joints.active()[j]];
-        if (!joint.broken) island.joints.push_back(&joint);
-    }
+    Island& island = colliding_.emplace_back(island_of(k, islands, step.joints));
     const std::size_t first = contacts_.size(), first_struck = struck_.size();
     for (const std::uint32_t m : islands.manifolds(k)) {
         Struck& struck = struck_.emplace_back(Struck{m, normal_impulse(manifolds[m]), 0.0});
@@ -127,14 +132,18 @@ void ImpactStage::add_contacts_under_load(const Manifold& m, const StepContext& 
     }
 }
 
+ImpactSettings ImpactStage::settings(const StepContext& step) {
+    return {.threshold = threshold(step),
+            .slow = impact_slow * threshold(step),
+            .law = step.settings.impact_law,
+            .resting = impact_slow * threshold(step),
+            .friction = true,
+            .span = step.h};
+}
+
 // Impacts of too much work are left to the contact solver.
 void ImpactStage::resolve_island(const StepContext& step, std::size_t index) {
-    const ImpactSettings impacts{.threshold = threshold(step),
-                                 .slow = impact_slow * threshold(step),
-                                 .law = step.settings.impact_law,
-                                 .resting = impact_slow * threshold(step),
-                                 .friction = true,
-                                 .span = step.h};
+    const ImpactSettings impacts = settings(step);
     Island& island = colliding_[index];
     ImpactTrace* trace = step.log ? &traces_[index] : nullptr;
     if (island.joints.empty()) {

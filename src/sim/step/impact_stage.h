@@ -12,7 +12,12 @@
 namespace tumble {
 
 class ContactDetection;
+class ContactIslands;
+class JointSet;
 struct StepContext;
+
+/// An island of the step's contacts with its joints, without contacts.
+Island island_of(std::size_t island, const ContactIslands& islands, JointSet& joints);
 
 class ImpactStage {
 public:
@@ -28,6 +33,7 @@ public:
     /// next. A contact may keep at most twice its last value, or twice the lighter body's load, its weight or more.
     void limit_warm_start(const StepContext& step, ContactDetection& detection) const;
 
+    static ImpactSettings settings(const StepContext& step);
     /// Approach speed (m/s) below which a contact does not bounce.
     static double threshold(const StepContext& step);
 

@@ -41,6 +41,11 @@ public:
     /// Called after bodies have fallen asleep; the context is that of the coming step.
     virtual void bodies_fell_asleep(const StepContext& step) = 0;
 
+    /// Bodies have vanished or appeared, or have other shapes: `changed`, ascending.
+    virtual void exchange(const StepContext& step, std::span<const std::uint32_t> changed) = 0;
+    /// Bodies have other shapes than those that the world was built with: after a checkpoint has been read.
+    virtual void measure(const std::vector<Body>& bodies) = 0;
+
     /// For checkpoints: see sim/checkpoint/archive.h.
     virtual void save(CheckpointWriter& writer) const = 0;
     /// `step`: at which the state was saved.

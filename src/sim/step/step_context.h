@@ -15,6 +15,7 @@
 namespace tumble {
 
 class ContactLog;
+class FractureStage;
 class JointSet;
 class PlacedBodies;
 class RollingMotion;
@@ -33,6 +34,7 @@ struct StepContext {
     JointSet& joints;
     PlacedBodies& placed;
     RollingMotion& rolling;
+    FractureStage& fracture;
 
     double start() const { return clock.seconds(index); }    // s
     double end() const { return clock.seconds(index + 1); }  // s

@@ -22,6 +22,10 @@ public:
     void advance(const StepContext& step, ContactDetection& detection) override;
     std::span<const std::size_t> clamped_islands() const override { return motions_.clamped_islands(); }
     void bodies_fell_asleep(const StepContext&) override {}
+    void exchange(const StepContext& step, std::span<const std::uint32_t> changed) override {
+        motions_.measure(step.set.bodies, changed);
+    }
+    void measure(const std::vector<Body>& bodies) override { motions_.measure(bodies); }
     void save(CheckpointWriter& writer) const override;
     void restore(CheckpointReader& reader, std::int64_t step) override;
 

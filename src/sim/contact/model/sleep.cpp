@@ -39,6 +39,14 @@ void SleepMonitor::wake(std::uint32_t body, std::vector<Body>& bodies) {
     }
 }
 
+void SleepMonitor::exchange(std::span<const std::uint32_t> changed) {
+    ++changes_;
+    for (const std::uint32_t i : changed) {
+        watches_[i] = Watch{};
+        trends_[i] = Trend{};
+    }
+}
+
 namespace {
 
 /// Bodies with smaller accelerations are told by their velocity, which is sampled at this interval (s; at least one

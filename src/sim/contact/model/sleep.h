@@ -13,6 +13,7 @@
 
 #include <array>
 #include <memory>
+#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -31,6 +32,9 @@ public:
 
     /// Wakes one body and its group.
     void wake(std::uint32_t body, std::vector<Body>& bodies);
+
+    /// Bodies have vanished or appeared.
+    void exchange(std::span<const std::uint32_t> changed);
 
     /// Observes the awake bodies over a step of h seconds and puts islands at rest to sleep. `speed_change` (m/s): by
     /// gravity in the step.

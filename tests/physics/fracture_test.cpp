@@ -1,0 +1,307 @@
+// Bodies that break: conservation across blows, closed forms of breaking loads, and the same pieces for any number of
+// threads, from a checkpoint and for other steps.
+#include "scene/load.h"
+#include "sim/checkpoint/archive.h"
+#include "sim/world.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace tumble::fracture_test {
+namespace {
+
+SceneDescription scene_of(const std::string& text) { return parse_scene("format = 1\n" + text, "fracture.toml"); }
+
+std::vector<std::byte> bytes_of(const Snapshot& snapshot) {
+    CheckpointWriter writer;
+    writer.keep(snapshot);
+    return {writer.bytes().begin(), writer.bytes().end()};
+}
+
+std::size_t pieces_of(const Snapshot& snapshot, const SceneDescription& scene) {
+    std::size_t shown = 0;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) shown += scene.bodies[i].piece_of && !snapshot.bodies[i].absent;
+    return shown;
+}
+
+std::vector<BreakRecord> breaks_of(const SceneDescription& scene, int frames) {
+    std::vector<BreakRecord> all;
+    World world(scene);
+    for (int n = 0; n < frames; ++n) {
+        world.advance_frame();
+        all.insert(all.end(), world.breaks().begin(), world.breaks().end());
+    }
+    return all;
+}
+
+/// A free pane of glass, and a ball that flies at it. Without gravity.
+std::string pane_and_ball(const std::string& settings, const std::string& pane, const std::string& ball) {
+    return "[simulation]\ngravity = [0, 0, 0]\n" + settings +
+           "[materials.glass]\ndensity = 2500\nstrength = 30e6\nstiffness = 70e9\ntoughness = 8\n"
+           "[[body]]\nname = \"pane\"\nmaterial = \"glass\"\n" +
+           pane + "[[body]]\nname = \"ball\"\nshape = { type = \"sphere\", radius = 0.05 }\ndensity = 7800\n" + ball;
+}
+const std::string plain_pane =
+    "shape = { type = \"box\", size = [0.6, 0.5, 0.01] }\nfracture = { cells = 24, seed = 5 }\n";
+const std::string fast_ball = "position = [0.03, 0.04, 0.3]\nvelocity = [0.2, -0.1, -9]\n";
+
+TEST(Fracture, ABlowKeepsMomentumAndTheBooksOfEnergy) {
+    for (const std::string mode : {"stepped", "exact"})
+        for (int seed = 1; seed <= 12; ++seed) {
+            const SceneDescription scene = scene_of(pane_and_ball(
+                "impacts = \"" + mode + "\"\nintegrator = \"exact\"\n",
+                "shape = { type = \"box\", size = [0.6, 0.5, 0.01] }\nangular_velocity = [0.4, -0.3, 0.2]\n"
+                "fracture = { cells = 20, seed = " + std::to_string(seed) + " }\n",
+                "position = [" + std::to_string(0.02 * seed - 0.1) + ", 0.04, 0.3]\nvelocity = [0.2, -0.1, -9]\n"));
+            World world(scene);
+            world.record_energy();
+            const Measurement start = world.measure();
+            std::size_t broken = 0;
+            for (int n = 0; n < 200 && broken < 8; ++n) {
+                world.advance_frame(1);
+                broken += world.breaks().size();
+                const Measurement now = world.measure();
+                const EnergyLedger& books = world.contact_records().energy;
+                ASSERT_LT((now.momentum - start.momentum).norm(), 1e-13 * start.momentum.norm()) << mode << seed;
+                ASSERT_NEAR(now.kinetic + books.impact_loss + books.friction_loss + books.surface, start.kinetic,
+                            1e-10 * start.kinetic)
+                    << mode << seed;
+                ASSERT_LE(now.kinetic + books.surface, (1.0 + 1e-14) * start.kinetic);
+            }
+            ASSERT_GE(broken, 8u) << mode << seed;
+            ASSERT_GT(world.contact_records().energy.surface, 0.0);
+        }
+}
+
+// In the step of the blow: later contacts move pieces out of overlaps.
+TEST(Fracture, ABlowKeepsAngularMomentum) {
+    for (int seed = 1; seed <= 12; ++seed) {
+        const SceneDescription scene = scene_of(pane_and_ball(
+            "impacts = \"exact\"\n",
+            "shape = { type = \"box\", size = [0.6, 0.5, 0.01] }\nangular_velocity = [0.4, -0.3, 0.2]\n"
+            "fracture = { cells = 20, seed = " + std::to_string(seed) + " }\n",
+            "position = [" + std::to_string(0.02 * seed - 0.1) + ", 0.04, 0.3]\nvelocity = [0.2, -0.1, -9]\n"));
+        World world(scene);
+        const Measurement start = world.measure();
+        while (pieces_of(world.snapshot(), scene) == 0) world.step();
+        const Vec3 change = world.measure().angular_momentum - start.angular_momentum;
+        ASSERT_LT(change.norm(), 1e-13 * start.momentum.norm()) << seed;
+    }
+}
+
+// A ball through a pane that the world holds: the work of breaking is the toughness times the new surface, and the pieces
+// take what they carry away.
+TEST(Fracture, ABallLosesTheEnergyOfTheSurfaceAndOfThePieces) {
+    for (const std::string mode : {"stepped", "exact"}) {
+        const SceneDescription scene = scene_of(pane_and_ball(
+            "impacts = \"" + mode + "\"\nintegrator = \"exact\"\n",
+            "type = \"fixed\"\n"
+            "shape = { type = \"box\", size = [0.6, 0.5, 0.01] }\n"
+            "fracture = { cells = 24, seed = 5, held = [\"-x\", \"+x\", \"-y\", \"+y\"] }\n",
+            fast_ball));
+        World world(scene);
+        world.record_energy();
+        const double before = world.measure().kinetic;
+        double energy = 0.0;
+        for (int n = 0; n < 20; ++n) {
+            world.advance_frame();
+            for (const BreakRecord& r : world.breaks()) energy += r.energy;
+        }
+        const EnergyLedger& books = world.contact_records().energy;
+        EXPECT_GT(energy, 0.01);
+        EXPECT_NEAR(books.surface, energy, 1e-12) << mode;
+        EXPECT_NEAR(world.measure().kinetic + books.impact_loss + books.surface, before, 1e-9 * before) << mode;
+        EXPECT_LT(world.snapshot().bodies[1].center_of_mass.z(), -0.3) << mode;  // the ball is through
+    }
+}
+
+// Without strength and toughness a pane of little mass does not hold the ball; with much of both it stays whole.
+TEST(Fracture, StrengthDecides) {
+    const auto speed = [](const std::string& strength, const std::string& toughness) {
+        const SceneDescription scene = scene_of(
+            "[simulation]\ngravity = [0, 0, 0]\nintegrator = \"exact\"\n"
+            "[[body]]\ntype = \"fixed\"\ndensity = 0.01\nstrength = " + strength + "\ntoughness = " + toughness +
+            "\nstiffness = 1e6\nshape = { type = \"box\", size = [0.6, 0.5, 0.01] }\nfracture = { cells = 24 }\n"
+            "[[body]]\nname = \"ball\"\nshape = { type = \"sphere\", radius = 0.05 }\ndensity = 7800\n"
+            "restitution = 1\n" + fast_ball);
+        World world(scene);
+        for (int n = 0; n < 12; ++n) world.advance_frame();
+        return world.snapshot().bodies[1].velocity.z();
+    };
+    EXPECT_NEAR(speed("1", "0"), -9.0, 1e-4);
+    EXPECT_NEAR(speed("1e15", "0"), 9.0, 1e-12);
+    EXPECT_NEAR(speed("1", "1e9"), 9.0, 1e-12);
+}
+
+// The bending impulse of a free bar that is struck at one end, J L x (1 - x)^2, is largest a third from the blow.
+TEST(Fracture, AStruckBarBreaksAThirdFromTheBlow) {
+    const SceneDescription scene = scene_of(
+        "[simulation]\ngravity = [0, 0, 0]\n"
+        "[[body]]\ndensity = 2000\nstrength = 8e6\nshear_strength = 1e12\nstiffness = 1e9\ntoughness = 1\n"
+        "shape = { type = \"box\", size = [3, 0.1, 0.1] }\nfracture = { cells = 30, pattern = \"slabs\", depth = 0 }\n"
+        "[[body]]\nshape = { type = \"sphere\", radius = 0.05 }\ndensity = 7800\nposition = [-1.46, 0.3, 0]\n"
+        "velocity = [0, -10, 0]\n");
+    const std::vector<BreakRecord> breaks = breaks_of(scene, 6);
+    ASSERT_FALSE(breaks.empty());
+    const Bond& first = scene.bodies[0].fracture->bonds[breaks[0].bond];
+    EXPECT_NEAR(first.center.x(), -0.5, 0.101);
+}
+
+// A chimney that falls about its foot bends most a third up: m g sin(angle) L / 27. It breaks where that is the
+// strength times the section modulus.
+TEST(Fracture, AFallingChimneyBreaksAThirdUpAtItsAngle) {
+    const double angle = 0.257684;
+    for (const std::string mode : {"stepped", "exact"}) {
+        const SceneDescription scene = scene_of(
+            "[simulation]\nimpacts = \"" + mode + "\"\nintegrator = \"exact\"\n"
+            "[[body]]\ndensity = 2000\nstrength = 1e5\nshear_strength = 1e9\nstiffness = 5e9\nposition = [0, 1.5, 0]\n"
+            "velocity = [0.03, 0, 0]\nangular_velocity = [0, 0, -0.02]\nshape = { type = \"box\", size = [0.1, 3, 0.1] }\n"
+            "fracture = { cells = 30, pattern = \"slabs\" }\n"
+            "[[joint]]\ntype = \"hinge\"\nbodies = [\"world\", \"0\"]\nanchor = [0, 0, 0]\naxis = [0, 0, 1]\n");
+        World world(scene);
+        double before = 0.0, rate = 0.0;
+        std::int64_t frame = 0;
+        while (world.breaks().empty() && frame < 180) {
+            const BodyState state = world.snapshot().bodies[0];
+            before = 2.0 * std::asin(-state.orientation.z());
+            rate = -state.angular_velocity.z();
+            world.advance_frame();
+            ++frame;
+        }
+        ASSERT_FALSE(world.breaks().empty()) << mode;
+        const BreakRecord& first = world.breaks().front();
+        EXPECT_NEAR(scene.bodies[0].fracture->bonds[first.bond].center.y(), -0.5, 1e-9) << mode;
+        // Within a frame at nearly constant rate.
+        const double span = first.time - double(frame - 1) / 60.0;
+        EXPECT_NEAR(before + rate * span, angle, 3.0 * rate / 960.0) << mode;
+    }
+}
+
+// A bar of length L that spins about its middle bursts there from w^2 = 8 strength / (density L^2) on.
+TEST(Fracture, ASpinningBarBurstsInTheMiddle) {
+    const double limit = 309.838667696593;
+    for (const double share : {0.999, 1.001}) {
+        const SceneDescription scene = scene_of(
+            "[simulation]\ngravity = [0, 0, 0]\nintegrator = \"exact\"\n"
+            "[[body]]\ndensity = 2500\nstrength = 30e6\nshear_strength = 1e12\nstiffness = 70e9\n"
+            "angular_velocity = [0, 0, " + std::to_string(share * limit) + "]\n"
+            "shape = { type = \"box\", size = [1, 0.001, 0.001] }\nfracture = { cells = 20, pattern = \"slabs\" }\n");
+        const std::vector<BreakRecord> breaks = breaks_of(scene, 1);
+        EXPECT_EQ(breaks.empty(), share < 1.0);
+        if (share < 1.0) continue;
+        EXPECT_NEAR(scene.bodies[0].fracture->bonds[breaks.front().bond].center.x(), 0.0, 1e-9);
+        EXPECT_NEAR(breaks.front().tension / breaks.front().area, 30e6 * share * share, 1e4);
+    }
+}
+
+// A bar on two supports, loaded in the middle by a force that is as large as 4 strength W / L: m g L / 8 more by itself.
+TEST(Fracture, ABridgeBreaksUnderALoad) {
+    const double strength = 1e6, width = 0.1, length = 2.0, modulus = width * width * width / 6.0;
+    const double own = 200.0 * width * width * 2.2 * 9.81;  // N, beyond the supports too
+    const double force = 4.0 * strength * modulus / length - 0.5 * own * (1.0 - 0.1 * 0.1);
+    for (const double share : {0.97, 1.03}) {
+        const SceneDescription scene = scene_of(
+            "[simulation]\nsteps_per_frame = 8\n"
+            "[[body]]\ndensity = 200\nstrength = 1e6\nshear_strength = 1e12\nstiffness = 1e9\nposition = [0, 1.05, 0]\n"
+            "shape = { type = \"box\", size = [2.2, 0.1, 0.1] }\nfracture = { cells = 22, pattern = \"slabs\" }\n"
+            "[[body]]\ntype = \"fixed\"\nshape = { type = \"cylinder\", radius = 0.02, height = 0.3 }\n"
+            "rotation = { axis = [1, 0, 0], angle = 90 }\nposition = [-1, 0.98, 0]\n"
+            "[[body]]\ntype = \"fixed\"\nshape = { type = \"cylinder\", radius = 0.02, height = 0.3 }\n"
+            "rotation = { axis = [1, 0, 0], angle = 90 }\nposition = [1, 0.98, 0]\n"
+            "[[force]]\nbody = \"0\"\npoint = [0, 0, 0]\nforce = [0, " + std::to_string(-share * force) + ", 0]\n"
+            "start = 0.5\n");
+        const std::vector<BreakRecord> breaks = breaks_of(scene, 60);
+        EXPECT_EQ(breaks.empty(), share < 1.0) << share;
+        if (breaks.empty()) continue;
+        EXPECT_NEAR(scene.bodies[0].fracture->bonds[breaks[0].bond].center.x(), 0.0, 0.101);
+    }
+}
+
+TEST(Fracture, ThreadsAndCheckpointsDoNotMatter) {
+    for (const std::string mode : {"stepped", "exact"}) {
+        const SceneDescription scene = scene_of(
+            pane_and_ball("impacts = \"" + mode + "\"\n", plain_pane, fast_ball) +
+            "[[body]]\ntype = \"fixed\"\nshape = { type = \"plane\", normal = [0, 0, 1], offset = -0.5 }\n");
+        World one(scene, 1), eight(scene, 8);
+        std::vector<std::vector<std::byte>> frames, states;
+        bool whole_at_first = false;
+        for (int n = 0; n < 30; ++n) {
+            if (n % 5 == 1) {
+                CheckpointWriter writer;
+                one.save(writer);
+                states.emplace_back(writer.bytes().begin(), writer.bytes().end());
+            }
+            whole_at_first = whole_at_first || (n == 1 && one.snapshot().bodies[0].absent == false);
+            one.advance_frame();
+            eight.advance_frame();
+            frames.push_back(bytes_of(one.snapshot()));
+            ASSERT_EQ(frames.back(), bytes_of(eight.snapshot())) << mode << n;
+        }
+        ASSERT_TRUE(whole_at_first);
+        ASSERT_GT(pieces_of(one.snapshot(), scene), 2u);
+        for (std::size_t k = 0; k < states.size(); ++k) {
+            World again(scene, 2);
+            CheckpointReader reader(states[k]);
+            again.restore(reader);
+            for (std::size_t n = 5 * k + 1; n < frames.size(); ++n) {
+                again.advance_frame();
+                ASSERT_EQ(bytes_of(again.snapshot()), frames[n]) << mode << " from " << 5 * k + 1 << " at " << n;
+            }
+        }
+    }
+}
+
+TEST(Fracture, TheStepDoesNotDecide) {
+    std::vector<std::vector<std::size_t>> bonds;
+    std::vector<double> times;
+    for (const int steps : {16, 32}) {
+        const SceneDescription scene =
+            scene_of(pane_and_ball("steps_per_frame = " + std::to_string(steps) + "\n", plain_pane, fast_ball));
+        const std::vector<BreakRecord> breaks = breaks_of(scene, 3);
+        ASSERT_FALSE(breaks.empty());
+        times.push_back(breaks.front().time);
+        bonds.emplace_back();
+        for (const BreakRecord& r : breaks)
+            if (r.time == breaks.front().time) bonds.back().push_back(r.bond);
+        std::sort(bonds.back().begin(), bonds.back().end());
+    }
+    EXPECT_EQ(bonds[0], bonds[1]);
+    EXPECT_NEAR(times[0], times[1], 1.0 / 960.0 + 1e-12);
+}
+
+TEST(Fracture, PiecesBreakAsOftenAsTheyMay) {
+    const auto times = [](const std::string& depth) {
+        const SceneDescription scene = scene_of(
+            "[[body]]\ndensity = 2400\nstrength = 2e6\nstiffness = 60e9\ntoughness = 1\nposition = [0, 1.5, 0]\n"
+            "rotation = { axis = [1, 0, 0.3], angle = 65 }\nshape = { type = \"box\", size = [0.5, 0.02, 0.4] }\n"
+            "fracture = { cells = 40" + depth + " }\n"
+            "[[body]]\ntype = \"fixed\"\nshape = { type = \"plane\" }\n");
+        std::set<double> all;
+        for (const BreakRecord& r : breaks_of(scene, 120)) all.insert(r.time);
+        return all.size();
+    };
+    EXPECT_EQ(times(", depth = 0"), 1u);
+    EXPECT_GT(times(", depth = 1"), 1u);
+    EXPECT_GT(times(""), times(", depth = 1"));
+}
+
+TEST(Fracture, PiecesComeToRestAndSleep) {
+    const SceneDescription scene = scene_of(
+        "[[body]]\ndensity = 2400\nstrength = 2e6\nstiffness = 60e9\ntoughness = 1\nfriction = 0.5\n"
+        "restitution = 0.1\nposition = [0, 1, 0]\nrotation = { axis = [1, 0, 0.3], angle = 65 }\n"
+        "shape = { type = \"box\", size = [0.5, 0.04, 0.4] }\nfracture = { cells = 30 }\n"
+        "[[body]]\ntype = \"fixed\"\nfriction = 0.5\nshape = { type = \"plane\" }\n");
+    World world(scene);
+    for (int n = 0; n < 480; ++n) world.advance_frame();
+    for (const BodyState& body : world.snapshot().bodies)
+        EXPECT_TRUE(body.mass == 0.0 || body.absent || body.asleep) << body.velocity.transpose();
+}
+
+}  // namespace
+}  // namespace tumble::fracture_test
