@@ -324,7 +324,7 @@ void Blow::finish(Trial& trial, const std::vector<Contact>& stopped) {
         BreakRecord r = t.before.record(f.bond, f.wrench);
         r.body = t.before.whole();
         r.energy = t.before.description().toughness * r.area;
-        r.pieces = breakables_[f.entry].piece_count();
+        r.pieces = breakables_[f.entry].pieces().size();
         result_.breaks.push_back(r);
     }
 }

@@ -65,6 +65,7 @@ BreakableBody::BreakableBody(const SceneDescription& scene, std::size_t scene_bo
       whole_(place[scene_body]),
       own_(own_bodies(*description_, place)),
       piece_(own_.size(), whole_),
+      pieces_{whole_},
       generation_(own_.size(), 0),
       cut_(description_->bonds.size(), 0),
       type_(bodies[whole_].type),
@@ -79,12 +80,6 @@ BreakableBody::BreakableBody(const SceneDescription& scene, std::size_t scene_bo
 }
 
 const Polyhedron& BreakableBody::hull_of(std::uint32_t cell) const { return hull_in(cells_[cell].collider); }
-
-std::size_t BreakableBody::piece_count() const {
-    std::vector<std::uint32_t> pieces = piece_;
-    sort_unique(pieces);
-    return pieces.size();
-}
 
 void BreakableBody::rebuild(std::vector<Body>& bodies) {
     BondGraph graph = graph_;
@@ -204,10 +199,8 @@ BreakableBody::Parting BreakableBody::part(std::uint32_t old, const BondGraph& g
 }
 
 std::vector<BreakableBody::Parting> BreakableBody::part(BondGraph graph, std::vector<Body>& bodies) {
-    std::vector<std::uint32_t> olds = piece_;
-    sort_unique(olds);
     std::vector<Parting> partings;
-    for (const std::uint32_t old : olds) {
+    for (const std::uint32_t old : std::vector<std::uint32_t>(pieces_)) {
         const auto first = std::uint32_t(std::find(piece_.begin(), piece_.end(), old) - piece_.begin());
         const auto held = [&](const BondGraph& of) { return of.held(of.component(first)); };
         bool apart = held(graph) != held(graph_);
@@ -216,6 +209,8 @@ std::vector<BreakableBody::Parting> BreakableBody::part(BondGraph graph, std::ve
         if (apart) partings.push_back(part(old, graph, bodies));
     }
     in_pieces_ = in_pieces_ || !partings.empty();
+    pieces_ = piece_;
+    sort_unique(pieces_);
     graph_ = std::move(graph);
     for (std::uint32_t k = 0; k < cut_.size(); ++k) cut_[k] = !graph_.intact(k);
     return partings;

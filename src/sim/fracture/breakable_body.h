@@ -25,6 +25,8 @@ public:
 
     const FractureDescription& description() const { return *description_; }
     const BondGraph& graph() const { return graph_; }
+    /// To solve for its forces; part() takes bonds.
+    BondGraph& graph() { return graph_; }
     std::size_t cells() const { return cells_.size(); }
     std::uint32_t whole() const { return whole_; }
     double blow_time() const { return blow_time_; }  // s
@@ -39,7 +41,8 @@ public:
     /// False for a piece that has broken as often as it may, or has no bonds.
     bool may_break(std::uint32_t piece) const;
     bool in_pieces() const { return in_pieces_; }
-    std::size_t piece_count() const;
+    /// The bodies that move its cells, ascending.
+    const std::vector<std::uint32_t>& pieces() const { return pieces_; }
 
     /// A bond that fails under a wrench (N, N m); without its time, body and energy.
     BreakRecord record(std::uint32_t bond, const Wrench& wrench) const;
@@ -65,8 +68,9 @@ public:
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [description, graph, whole, own, piece, generation, cut, cells, type, track, blow_time, in_pieces] = self;
-        archive.rebuilt(description, graph, whole, own, piece, cells, type, track, blow_time, in_pieces);
+        auto& [description, graph, whole, own, piece, pieces, generation, cut, cells, type, track, blow_time, in_pieces] =
+            self;
+        archive.rebuilt(description, graph, whole, own, piece, pieces, cells, type, track, blow_time, in_pieces);
         for (auto& times : generation) archive.count(times);
         for (auto& failed : cut) archive.between(std::uint8_t(0), failed, std::uint8_t(1));
     }
@@ -85,6 +89,7 @@ private:
     BondGraph graph_;
     std::uint32_t whole_ = 0;
     std::vector<std::uint32_t> own_, piece_;  // by cell: bodies
+    std::vector<std::uint32_t> pieces_;       // bodies, ascending
     std::vector<int> generation_;             // by cell: how many times its piece has broken
     std::vector<std::uint8_t> cut_;           // by bond: 1 if it has failed
     std::vector<Cell> cells_;

@@ -168,11 +168,11 @@ void FractureStage::yield(const StepContext& step, ContactDetection& detection, 
         const auto to = std::find_if(from, loads_.end(), [&](const PieceLoad& l) { return l.entry != entry; });
         const std::span<const PieceLoad> loads(from, to);
         from = to;
-        BondGraph graph = bodies_[entry].graph();
         std::vector<BreakRecord> breaks;
-        if (!examine(entry, loads, step, graph, breaks)) continue;
+        std::optional<BondGraph> graph = examine(entry, loads, step, breaks);
+        if (!graph) continue;
         const std::size_t before = partings.size();
-        for (BreakableBody::Parting& parting : bodies_[entry].part(std::move(graph), step.set.bodies)) {
+        for (BreakableBody::Parting& parting : bodies_[entry].part(std::move(*graph), step.set.bodies)) {
             if (step.log)
                 step.log->hand_over(parting.index, parting.whole.dynamic(), parting.pieces, step.set.bodies);
             partings.push_back(std::move(parting));
@@ -180,7 +180,7 @@ void FractureStage::yield(const StepContext& step, ContactDetection& detection, 
         last_[entry] = {};
         if (partings.size() == before) continue;
         for (BreakRecord& r : breaks) {
-            r.pieces = bodies_[entry].piece_count();
+            r.pieces = bodies_[entry].pieces().size();
             breaks_.push_back(r);
         }
     }
@@ -201,22 +201,21 @@ bool FractureStage::changed(const std::vector<Load>& now, const Examined& last, 
     return change > changed_load * std::max(0.0, 1.0 - last.utilization) * sum;
 }
 
-// Cuts the bonds that fail. Returns whether any does.
-bool FractureStage::examine(std::uint32_t entry, std::span<const PieceLoad> piece_loads, const StepContext& step,
-                            BondGraph& graph, std::vector<BreakRecord>& breaks) {
+// The bonds without those that fail; nothing if none does.
+std::optional<BondGraph> FractureStage::examine(std::uint32_t entry, std::span<const PieceLoad> piece_loads,
+                                                const StepContext& step, std::vector<BreakRecord>& breaks) {
     const std::vector<Body>& bodies = step.set.bodies;
-    const BreakableBody& body = bodies_[entry];
-    std::vector<std::uint32_t> pieces;
-    for (std::uint32_t cell = 0; cell < body.cells(); ++cell) pieces.push_back(body.piece_of(cell));
-    sort_unique(pieces);
-    std::erase_if(pieces,
-                  [&](std::uint32_t i) { return !bodies[i].breakable || bodies[i].asleep || !body.may_break(i); });
-    if (pieces.empty()) return false;
+    BreakableBody& body = bodies_[entry];
+    const auto may_break = [&](std::uint32_t i) {
+        return bodies[i].breakable && !bodies[i].asleep && body.may_break(i);
+    };
     std::vector<Load> now;
     double size = 0.0;
-    for (const PieceLoad& l : piece_loads) now.push_back(l.load);
-    for (const std::uint32_t i : pieces) {
+    for (const PieceLoad& l : piece_loads)
+        if (may_break(l.piece)) now.push_back(l.load);
+    for (const std::uint32_t i : body.pieces()) {
         const Body& piece = bodies[i];
+        if (!may_break(i)) continue;
         size = std::max(size, piece.radius);
         // Rotation, as a force at the rim; and the weight of what is held.
         Load own;
@@ -227,8 +226,7 @@ bool FractureStage::examine(std::uint32_t entry, std::span<const PieceLoad> piec
             own.force = piece.rotation.transpose() * step.settings.gravity;
         if (!own.force.isZero(0.0)) now.push_back(own);
     }
-    if (now.empty()) return false;
-    if (!changed(now, last_[entry], size)) return false;
+    if (now.empty() || !changed(now, last_[entry], size)) return std::nullopt;
     Examined& last = last_[entry];
     last = {std::move(now), 0.0};
 
@@ -266,15 +264,15 @@ bool FractureStage::examine(std::uint32_t entry, std::span<const PieceLoad> piec
         loads[cell].force -= own.mass * w.cross(w.cross(own.center_of_mass - piece.center_of_mass));
         loads[cell].torque -= w.cross(own.inertia * w);
     }
-    bool any = false;
+    std::optional<BondGraph> left;
     for (bool more = true; more;) {
-        more = false;
+        BondGraph& graph = left ? *left : body.graph();
         std::vector<double> utilization(graph.bond_count(), 0.0);
         const auto wrenches = graph.solve(loads, Vec3::Zero());
         for (std::uint32_t k = 0; k < graph.bond_count(); ++k)
             if (graph.intact(k) && body.may_break(body.piece_of(graph.bond(k).a)))
                 utilization[k] = graph.utilization(k, wrenches[k]);
-        if (!any) last.utilization = *std::max_element(utilization.begin(), utilization.end());
+        if (!left) last.utilization = *std::max_element(utilization.begin(), utilization.end());
         const std::vector<std::uint32_t> fails = failing_first(graph, utilization);
         for (const std::uint32_t k : fails) {
             BreakRecord r = body.record(k, wrenches[k]);
@@ -282,11 +280,11 @@ bool FractureStage::examine(std::uint32_t entry, std::span<const PieceLoad> piec
             r.body = step.set.scene_index[body.whole()];
             breaks.push_back(r);
         }
-        for (const std::uint32_t k : fails) graph.cut(k);
         more = !fails.empty();
-        any = any || more;
+        if (more && !left) left = graph;
+        for (const std::uint32_t k : fails) left->cut(k);
     }
-    return any;
+    return left;
 }
 
 const BlowResult* FractureStage::strike(const Island& island, const std::vector<Contact>& contacts,

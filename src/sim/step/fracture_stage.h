@@ -10,6 +10,7 @@
 #include "sim/step/body_set.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -86,8 +87,8 @@ private:
     static Load load_on(const Body& body, const Vec3& force, const Vec3& torque, const Vec3& point);
     void find_loads(const StepContext& step, ContactDetection& detection);
     bool changed(const std::vector<Load>& now, const Examined& last, double size) const;
-    bool examine(std::uint32_t entry, std::span<const PieceLoad> loads, const StepContext& step, BondGraph& graph,
-                 std::vector<BreakRecord>& breaks);
+    std::optional<BondGraph> examine(std::uint32_t entry, std::span<const PieceLoad> loads, const StepContext& step,
+                                     std::vector<BreakRecord>& breaks);
     bool strike_one(const StepContext& step, ContactDetection& detection, MotionStage& motion);
     bool struck(std::span<const std::uint32_t> manifolds, const StepContext& step, ContactDetection& detection) const;
     void move_forces(const StepContext& step) const;
