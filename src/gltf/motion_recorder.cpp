@@ -55,6 +55,7 @@ MotionRecorder::MotionRecorder(const SceneDescription& scene, std::vector<BodyRe
     : scene_(scene),
       reports_(std::move(reports)),
       bodies_(scene.bodies.size(), PoseKeys(kind, true)),
+      absent_from_(scene.bodies.size()),
       last_(scene.bodies.size()),
       impacts_(scene.bodies.size()),
       camera_(kind, false) {}
@@ -86,6 +87,8 @@ void MotionRecorder::add(const Snapshot& snapshot, const CameraDescription& came
                     }
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         const BodyDescription& body = scene_.bodies[i];
+        std::vector<double>& absent = absent_from_[i];
+        if (snapshot.bodies[i].absent != (absent.size() % 2 == 1)) absent.push_back(snapshot.time);
         if (body.type == BodyType::fixed && started_) continue;
         Pose now = pose_of(i, snapshot);
         if (started_) now.rotation.coeffs() = aligned(now.rotation, last_[i].rotation);

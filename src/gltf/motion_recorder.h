@@ -40,6 +40,8 @@ public:
 
     /// By body: of its center of mass if it is dynamic, otherwise of its origin.
     const std::vector<PoseKeys>& bodies() const { return bodies_; }
+    /// By body: when it vanishes and appears in turn, s (BodyState::absent).
+    const std::vector<std::vector<double>>& absent_from() const { return absent_from_; }
     const PoseKeys& camera() const { return camera_; }
     /// Node of a body relative to the body's origin, body frame, m.
     Vec3 node_place(std::size_t body) const;
@@ -69,6 +71,7 @@ private:
     const SceneDescription& scene_;
     std::vector<BodyReport> reports_;
     std::vector<PoseKeys> bodies_;
+    std::vector<std::vector<double>> absent_from_;
     std::vector<Pose> last_;        // by body
     std::vector<Impacts> impacts_;  // by body
     PoseKeys camera_;

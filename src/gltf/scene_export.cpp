@@ -69,6 +69,7 @@ private:
     std::size_t add_node(Json node);
     void set_pose(Json& node, const PoseKeys& keys) const;
     void animate(std::size_t node, const PoseKeys& keys);
+    void hide(std::size_t node, const Vec3& size, const std::vector<double>& absent_from);
     template <int N>
     void add_channel(std::size_t node, const char* path, const KeyTrack<N>& track);
     Json root() const;
@@ -106,6 +107,7 @@ void SceneWriter::add_body(std::size_t index) {
     Json node{{"name", body.name}};
     set_pose(node, keys);
     std::vector<Json> parts;
+    Vec3 size = Vec3::Ones();
     if (const auto* compound = std::get_if<CompoundShape>(&body.shape)) {
         for (const CompoundPart& part : *compound->parts) {
             if (!part.visible) continue;
@@ -118,6 +120,7 @@ void SceneWriter::add_body(std::size_t index) {
     } else {
         const Placed shape = placed(body, body.shape, body.appearance);
         if (shape.scale != Vec3::Ones()) node["scale"] = vector_json(shape.scale);
+        size = shape.scale;
         node["mesh"] = shape.mesh;
     }
     if (!parts.empty()) {
@@ -128,6 +131,7 @@ void SceneWriter::add_body(std::size_t index) {
     const std::size_t number = add_node(std::move(node));
     top_.push_back(number);
     animate(number, keys);
+    hide(number, size, source_.motion.absent_from()[index]);
 }
 
 Json SceneWriter::shape_node(const BodyDescription& body, const Shape& shape, const Appearance& look, const Vec3& place,
@@ -301,6 +305,21 @@ void SceneWriter::add_lamps() {
 void SceneWriter::animate(std::size_t node, const PoseKeys& keys) {
     add_channel(node, "translation", keys.position);
     add_channel(node, "rotation", keys.rotation);
+}
+
+// A body that is absent has the scale 0, and otherwise `size`. `absent_from`: s, when it vanishes and appears in turn.
+void SceneWriter::hide(std::size_t node, const Vec3& size, const std::vector<double>& absent_from) {
+    if (absent_from.empty()) return;
+    std::vector<float> times{0.0f}, sizes;
+    for (const double time : absent_from)
+        if (time > 0.0) times.push_back(float(time));
+    bool shown = absent_from.front() > 0.0;
+    for (std::size_t k = 0; k < times.size(); ++k, shown = !shown) 
+        for (int axis = 0; axis < 3; ++axis) sizes.push_back(shown ? float(size[axis]) : 0.0f);
+    samplers_.push_back({{"input", buffer_.add(times, 1, GlbBuffer::Use::animation, true)},
+                         {"interpolation", "STEP"},
+                         {"output", buffer_.add(sizes, 3, GlbBuffer::Use::animation, false)}});
+    channels_.push_back({{"sampler", samplers_.size() - 1}, {"target", {{"node", node}, {"path", "scale"}}}});
 }
 
 template <int N>

@@ -80,6 +80,10 @@ OverlayBuilder::OverlayBuilder(const SceneDescription& scene, const OverlayScale
             if (shown_[i] != 0) trails_.push_back({i, Vec3::Zero(), true, trail_color(scene, i), {}});
 }
 
+bool OverlayBuilder::shows(std::size_t body, const Snapshot& snapshot) const {
+    return shown_[body] != 0 && !snapshot.bodies[body].absent;
+}
+
 const OverlayFrame& OverlayBuilder::next(const Snapshot& snapshot, const ContactRecords* records) {
     const OverlayDescription& overlay = scene_->overlay;
     frame_.clear();
@@ -91,7 +95,7 @@ const OverlayFrame& OverlayBuilder::next(const Snapshot& snapshot, const Contact
     if (shows(Overlay::islands) && records != nullptr) add_islands(snapshot, *records);
     add_trails();
     for (std::size_t i = 0; i < snapshot.bodies.size(); ++i)
-        if (shown_[i] != 0) add_body(i, snapshot.bodies[i]);
+        if (shows(i, snapshot)) add_body(i, snapshot.bodies[i]);
     if (records != nullptr) add_contacts(*records);
     if (shows(Overlay::joints) && records != nullptr) add_joints(snapshot, *records);
     if (shows(Overlay::loads)) add_loads(snapshot);
@@ -105,6 +109,7 @@ void OverlayBuilder::remember(const Snapshot& snapshot, const ContactRecords* re
     const OverlayDescription& overlay = scene_->overlay;
     for (Trail& trail : trails_) {
         const BodyState& body = snapshot.bodies[trail.body];
+        if (body.absent) continue;
         const Vec3 place = trail.center ? body.center_of_mass : Vec3(body.origin + body.orientation * trail.point);
         while (!trail.places.empty() && trail.places.front().first < snapshot.time - overlay.trail_time)
             trail.places.pop_front();
@@ -122,7 +127,7 @@ void OverlayBuilder::remember(const Snapshot& snapshot, const ContactRecords* re
 void OverlayBuilder::add_ghosts(const Snapshot& snapshot, std::int64_t frame) {
     if (frame % scene_->overlay.ghost_every == 0)
         for (std::size_t i = 0; i < snapshot.bodies.size() && ghosts_.size() < style::most_ghosts; ++i) {
-            if (shown_[i] == 0 || radii_[i] == 0.0) continue;
+            if (!shows(i, snapshot) || radii_[i] == 0.0) continue;
             const BodyState& now = snapshot.bodies[i];
             const auto last =
                 std::find_if(ghosts_.rbegin(), ghosts_.rend(), [&](const Ghost& g) { return g.body == i; });
@@ -146,7 +151,7 @@ void OverlayBuilder::add_islands(const Snapshot& snapshot, const ContactRecords&
     for (const ContactRecord& r : records.contacts)
         if (r.a != ContactRecord::nobody && dynamic(r.a) && dynamic(r.b)) islands.join(r.a, r.b);
     for (std::size_t i = 0; i < snapshot.bodies.size(); ++i)
-        if (shown_[i] != 0 && dynamic(i))
+        if (shows(i, snapshot) && dynamic(i))
             frame_.surfaces.push_back(
                 {i,
                  snapshot.bodies[i].origin,

@@ -76,6 +76,7 @@ private:
     void body_arrow(ArrowQuantity quantity, std::size_t body, const BodyState& state, const Vec3& value);
     void arrow(ArrowQuantity quantity, const Vec3& from, const Vec3& value, float opacity = 1.0f);
     bool shows(Overlay overlay) const { return scene_->overlay.show.has(overlay); }
+    bool shows(std::size_t body, const Snapshot& snapshot) const;
 
     const SceneDescription* scene_;
     OverlayScales scales_;

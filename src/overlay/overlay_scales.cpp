@@ -126,7 +126,7 @@ void ScaleSurvey::add(const Snapshot& snapshot, const ContactRecords* records) {
     const OverlayDescription& overlay = scene_->overlay;
     if (snapshot.time < overlay.start || snapshot.time >= overlay.end) return;
     for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {
-        if (shown_[i] == 0) continue;
+        if (shown_[i] == 0 || snapshot.bodies[i].absent) continue;
         const BodyState& body = snapshot.bodies[i];
         add(ArrowQuantity::velocity, body.velocity.norm());
         add(ArrowQuantity::omega, body.angular_velocity.norm());
@@ -135,7 +135,7 @@ void ScaleSurvey::add(const Snapshot& snapshot, const ContactRecords* records) {
     }
     if (overlay.show.has(Overlay::loads)) {
         for (std::size_t i = 0; i < snapshot.bodies.size(); ++i)
-            if (shown_[i] != 0)
+            if (shown_[i] != 0 && !snapshot.bodies[i].absent)
                 add(ArrowQuantity::force, snapshot.bodies[i].mass * std::abs(scene_->bodies[i].gravity_scale) *
                                               scene_->simulation.gravity.norm());
         for (const ForceDescription& force : scene_->forces)

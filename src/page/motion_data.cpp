@@ -103,6 +103,7 @@ public:
         data.json["events"] = events();
         data.json["struck"] = struck_times();
         data.json["asleep"] = asleep();
+        if (Json found = absent(); !found.empty()) data.json["absent"] = std::move(found);
         data.errors = errors_;
         data.json["error"] = {{"position", errors_.position},
                               {"rotation", errors_.rotation},
@@ -133,6 +134,7 @@ private:
     Json events();
     Json struck_times();
     Json asleep() const;
+    Json absent() const;
 
     const PageRun& run_;
     const double budget_;
@@ -276,6 +278,14 @@ Json Writer::asleep() const {
             }
         if (!frames.empty()) all.push_back({i, std::move(frames)});
     }
+    return all;
+}
+
+/// Frames where bodies vanish and appear in turn: pieces, and bodies that break.
+Json Writer::absent() const {
+    Json all = Json::array();
+    for (std::size_t i = 0; i < run_.bodies.size(); ++i)
+        if (!run_.bodies[i].absent_from.empty()) all.push_back({i, run_.bodies[i].absent_from});
     return all;
 }
 

@@ -114,6 +114,8 @@ void PageRecorder::add_joints(const Snapshot& snapshot, const Survey& survey) {
 void PageRecorder::add_bodies(const Snapshot& snapshot) {
     for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {
         std::vector<BodySample>& samples = run_.bodies[i].samples;
+        std::vector<std::int64_t>& absent = run_.bodies[i].absent_from;
+        if (snapshot.bodies[i].absent != (absent.size() % 2 == 1)) absent.push_back(std::int64_t(run_.energy.size()));
         if (samples.empty() || run_.scene.bodies[i].type != BodyType::fixed)
             samples.push_back(sample_of(snapshot.bodies[i]));
     }

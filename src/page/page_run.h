@@ -32,6 +32,7 @@ struct BodyRecord {
     std::vector<BodySample> samples;  // by frame; a single one of a fixed body
     std::vector<BodyEvent> events;    // in order of time
     bool all_events = true;           // false: there were more than are kept
+    std::vector<std::int64_t> absent_from;  // frames where it vanishes and appears in turn (BodyState::absent)
 };
 
 struct PageImpact {

@@ -453,7 +453,9 @@ std::vector<Overlap> World::overlaps() const {
 
 BodyReport World::report(std::size_t index) const {
     const BodySet& set = state_->set;
-    return describe(set.bodies[set.of_scene[index]]);
+    BodyReport report = describe(set.bodies[set.of_scene[index]]);
+    state_->fracture.bodies().describe(set.of_scene[index], report);
+    return report;
 }
 
 void World::save(CheckpointWriter& writer) const {

@@ -127,6 +127,7 @@ function make_motion(restitution: number, duration: number): Motion {
       const { position, origin, rotation } = state_at(restitution, duration, body, time, false);
       return Object.assign(out, { position, origin, rotation });
     },
+    shows: () => true,
     kind: (body) => (body === bodies_index.ground ? "still" : "keys"),
     error: { position: 0, rotation: 0, velocity: 0, angular_velocity: 0 },
   };

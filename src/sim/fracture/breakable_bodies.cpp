@@ -1,5 +1,7 @@
 #include "sim/fracture/breakable_bodies.h"
 
+#include <Eigen/Eigenvalues>
+
 namespace tumble {
 
 BreakableBodies::BreakableBodies(const SceneDescription& scene, std::span<const std::uint32_t> scene_index,
@@ -44,15 +46,30 @@ void BreakableBodies::describe(std::uint32_t body, const Body& mover, BodyState&
     const BreakableBody& owner = list_[entry];
     const std::uint32_t cell = cell_[body];
     state.absent = owner.in_pieces() == (cell == none);
-    if (cell == none || !mover.dynamic()) return;
-    const MassProperties& own = owner.mass_of(cell);
-    const Vec3 arm = mover.rotation * (own.center_of_mass - mover.center_of_mass);
+    const Vec3& center = cell == none ? owner.center_of_mass() : owner.mass_of(cell).center_of_mass;
+    const Vec3 arm = mover.rotation * (center - mover.center_of_mass);
     state.center_of_mass += arm;
     state.velocity = mover.point_velocity(arm);
-    state.mass = own.mass;
-    state.momentum = own.mass * state.velocity;
-    state.angular_momentum =
-        mover.rotation * (own.inertia * (mover.rotation.transpose() * mover.angular_velocity));
+    if (state.absent) {
+        state.mass = 0.0;
+        state.momentum.setZero();
+        state.angular_momentum.setZero();
+    } else if (cell != none && mover.dynamic()) {
+        const MassProperties& own = owner.mass_of(cell);
+        state.mass = own.mass;
+        state.momentum = own.mass * state.velocity;
+        state.angular_momentum = mover.rotation * (own.inertia * (mover.rotation.transpose() * mover.angular_velocity));
+    }
+}
+
+void BreakableBodies::describe(std::uint32_t body, BodyReport& report) const {
+    const std::uint32_t entry = entry_of(body);
+    if (entry == none || cell_[body] == none) return;
+    const MassProperties& own = list_[entry].mass_of(cell_[body]);
+    report.mass = own.mass;
+    report.inertia = own.inertia;
+    report.principal_inertia = Eigen::SelfAdjointEigenSolver<Mat3>(own.inertia).eigenvalues();
+    report.center_of_mass = own.center_of_mass;
 }
 
 void BreakableBodies::attach(std::vector<Joint>& joints, const std::vector<Body>& bodies) const {

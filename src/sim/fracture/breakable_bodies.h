@@ -3,6 +3,7 @@
 
 #include "sim/fracture/breakable_body.h"
 #include "sim/joints/joint.h"
+#include "sim/snapshot/report.h"
 #include "sim/snapshot/snapshot.h"
 
 #include <cstdint>
@@ -30,6 +31,9 @@ public:
 
     /// Completes the state of a body, which has that of its mover: of a cell its share of a piece.
     void describe(std::uint32_t body, const Body& mover, BodyState& state) const;
+
+    /// The same for the report of a cell, whose body may be absent.
+    void describe(std::uint32_t body, BodyReport& report) const;
 
     /// Joints act on the pieces that hold their anchors.
     void attach(std::vector<Joint>& joints, const std::vector<Body>& bodies) const;

@@ -70,6 +70,7 @@ BreakableBody::BreakableBody(const SceneDescription& scene, std::size_t scene_bo
       cut_(description_->bonds.size(), 0),
       type_(bodies[whole_].type),
       track_(bodies[whole_].track),
+      center_(bodies[whole_].center_of_mass),
       blow_time_(description_->blow_time) {
     for (const std::uint32_t i : own_) {
         Body& body = bodies[i];

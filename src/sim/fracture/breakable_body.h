@@ -29,7 +29,8 @@ public:
     BondGraph& graph() { return graph_; }
     std::size_t cells() const { return cells_.size(); }
     std::uint32_t whole() const { return whole_; }
-    double blow_time() const { return blow_time_; }  // s
+    double blow_time() const { return blow_time_; }               // s
+    const Vec3& center_of_mass() const { return center_; }        // m, of the whole, from its origin
     /// The body of a cell, and the body that moves the cell now.
     std::uint32_t body_of(std::uint32_t cell) const { return own_[cell]; }
     std::uint32_t piece_of(std::uint32_t cell) const { return piece_[cell]; }
@@ -68,9 +69,9 @@ public:
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [description, graph, whole, own, piece, pieces, generation, cut, cells, type, track, blow_time, in_pieces] =
-            self;
-        archive.rebuilt(description, graph, whole, own, piece, pieces, cells, type, track, blow_time, in_pieces);
+        auto& [description, graph, whole, own, piece, pieces, generation, cut, cells, type, track, center, blow_time,
+               in_pieces] = self;
+        archive.rebuilt(description, graph, whole, own, piece, pieces, cells, type, track, center, blow_time, in_pieces);
         for (auto& times : generation) archive.count(times);
         for (auto& failed : cut) archive.between(std::uint8_t(0), failed, std::uint8_t(1));
     }
@@ -95,7 +96,8 @@ private:
     std::vector<Cell> cells_;
     BodyType type_ = BodyType::dynamic;  // of the whole, and of pieces that bonds hold to the world
     std::shared_ptr<const KeyframeTrack> track_;
-    double blow_time_ = 0.0;  // s
+    Vec3 center_ = Vec3::Zero();  // m
+    double blow_time_ = 0.0;      // s
     bool in_pieces_ = false;
 };
 

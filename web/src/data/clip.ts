@@ -234,6 +234,8 @@ export interface Motion {
   state_after(body: number, time: number): BodyState;
   /** Only position, origin and rotation: cheaper, for drawing. Writes into and returns `out`. */
   pose(body: number, time: number, out: Pose): Pose;
+  /** False for a piece that has not broken off, and for a body in pieces. */
+  shows(body: number, time: number): boolean;
   /** "keys": exact between keys. "frames": quantized at each frame, interpolated in between. */
   kind(body: number): "still" | "keys" | "frames";
   /** Largest deviations from the simulation at the times that it was recorded. */

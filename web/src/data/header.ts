@@ -114,6 +114,8 @@ export interface MotionHeader {
   /** Without events: when the bodies are struck, if that is known of all impacts. */
   struck: { counts: ArrayReference; times: ArrayReference } | null;
   asleep: [number, number[]][];
+  /** Frames where bodies vanish and appear in turn: pieces, and bodies that break. */
+  absent?: [number, number[]][];
   error: { position: number; rotation: number; velocity: number; angular_velocity: number };
 }
 

@@ -64,7 +64,8 @@ export class DecodedMotion implements Motion {
   readonly #kinds: Kind[] = [];
   readonly #tracks: Track[] = [];
   readonly #events: BodyEvent[][];
-  readonly #asleep = new Map<number, number[]>();
+  readonly #asleep: Map<number, number[]>;
+  readonly #absent: Map<number, number[]>;
   readonly #fps: number;
   readonly #duration: number;
 
@@ -75,7 +76,8 @@ export class DecodedMotion implements Motion {
     this.#fps = run.fps;
     this.#duration = (run.frames - 1) / run.fps;
     this.#events = events ?? run.bodies.map(() => []);
-    for (const [body, frames] of run.motion.asleep) this.#asleep.set(body, frames);
+    this.#asleep = new Map(run.motion.asleep);
+    this.#absent = new Map(run.motion.absent ?? []);
     const add = (body: number, kind: Kind, moments: Moment[]) => {
       this.#kinds[body] = kind;
       const own = this.#events[body];
@@ -143,6 +145,10 @@ export class DecodedMotion implements Motion {
     return out;
   }
 
+  shows(body: number, time: number): boolean {
+    return !this.#absent.has(body) || !this.#within(this.#absent, body, this.#clamped(time));
+  }
+
   place(body: number, time: number): { position: Vec3; rotation: Quat } {
     const { position, rotation } = this.#tracks[body].place(this.#clamped(time));
     return { position, rotation };
@@ -163,12 +169,13 @@ export class DecodedMotion implements Motion {
       angular_velocity,
       momentum: scaled(mass, velocity),
       angular_momentum: rotated(rotation, times(inertia, rotated(conjugate(rotation), angular_velocity))),
-      asleep: this.#sleeps(body, moment.time),
+      asleep: this.#within(this.#asleep, body, moment.time),
     };
   }
 
-  #sleeps(body: number, time: number): boolean {
-    const frames = this.#asleep.get(body) ?? [];
+  /** True if an odd number of the frames has come. */
+  #within(spans: Map<number, number[]>, body: number, time: number): boolean {
+    const frames = spans.get(body) ?? [];
     const frame = time * this.#fps + 1e-6;
     return frames.filter((n) => n <= frame).length % 2 === 1;
   }

@@ -59,6 +59,7 @@ export class OcclusionSet {
     let body = -1;
     let count = 0;
     for (const piece of this.pieces) {
+      if (!this.run.motion.shows(piece.body, time)) continue;
       if (piece.body !== body) this.run.motion.pose((body = piece.body), time, pose);
       const rotation = multiply(pose.rotation, piece.rotation);
       const center = add(add(pose.origin, rotate(pose.rotation, piece.position)), rotate(rotation, piece.middle));

@@ -33,6 +33,7 @@ export class OverlayBuilder {
     if (overlays.has("ghosts")) this.add_ghosts(to, time);
     if (overlays.has("islands")) this.add_islands(to, frame);
     for (const body of this.shown) {
+      if (!run.motion.shows(body, time)) continue;
       const state = before ? run.motion.state_before(body, time) : run.motion.state(body, time);
       this.add_body(to, body, state, frame, overlays);
     }

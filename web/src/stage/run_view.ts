@@ -161,6 +161,6 @@ export const run_color = (index: number): Vec3 => run_colors[index % run_colors.
 function each_pose(run: Run, time: number, act: (body: number, pose: Pose) => void): void {
   const pose: Pose = { position: [0, 0, 0], origin: [0, 0, 0], rotation: [1, 0, 0, 0] };
   run.scene.bodies.forEach((body, index) => {
-    if (body.visible) act(index, run.motion.pose(index, time, pose));
+    if (body.visible && run.motion.shows(index, time)) act(index, run.motion.pose(index, time, pose));
   });
 }
