@@ -210,8 +210,8 @@ TEST(Fracture, TheMirrorImageOfSitesGivesTheMirrorCut) {
     std::vector<Vec3> mirrored = sites;
     for (Vec3& site : mirrored) site.y() = -site.y();
     std::vector<ConvexCell> cells, others;
-    cut_by_sites(part, sites, {1e-13, 0.0}, cells);
-    cut_by_sites(part, mirrored, {1e-13, 0.0}, others);
+    cut_by_sites(part, sites, {1e-13, 0.0, 0.0}, cells);
+    cut_by_sites(part, mirrored, {1e-13, 0.0, 0.0}, others);
     ASSERT_EQ(cells.size(), others.size());
     const auto volumes = [](const std::vector<ConvexCell>& all) {
         std::vector<double> values;

@@ -488,6 +488,9 @@ TEST(SceneErrors, OfFracture) {
              "type = \"compound\", parts = [{ shape = { type = \"sphere\", radius = 1 }, collide = false }, { shape = "
              "{ type = \"sphere\", radius = 1 }, position = [3, 0, 0] }]"),
          "a part of the compound does not"},
+        {of_shape("type = \"compound\", parts = [{ shape = { type = \"sphere\", radius = 1 } }, { shape = { type = "
+                  "\"sphere\", radius = 1 }, position = [3, 0, 0] }]"),
+         "needs a body of one piece"},
         {of_shape("type = \"sphere\", radius = 1") + "type = \"fixed\"", "no face in the held sides"},
         {in_body("cells = 8") + "\nname = \"pane\"\n[[force]]\nbody = @\"pane/1\"\nforce = [1, 0, 0]", "is a piece"},
         {body(hard + "fracture = @{ cells = 8 }\nname = \"pane\"\n[[body]]\nname = \"pane/1\"\nshape = { type = "

@@ -1,6 +1,7 @@
 #include "scene/fracture/cut_body.h"
 
 #include "core/deterministic_math.h"
+#include "core/disjoint_sets.h"
 #include "core/error.h"
 #include "scene/description/looks.h"
 #include "scene/fracture/bonds.h"
@@ -25,6 +26,7 @@ constexpr double cut_rounding = 1e-13;
 constexpr double weld_length = 1e-9;      // as of mesh files
 constexpr double touch_length = 1e-9;     // of faces that make a bond
 constexpr double least_bond_area = 1e-6;  // of the volume to 2/3: slivers of Voronoi cells hold nothing
+constexpr double no_volume = 1e-12;       // of the volume: a cell of less is rounding
 constexpr double usual_smallest = 1e-3;   // of the cube root of the volume
 
 double cube_root(double value) { return value > 0.0 ? exponential(logarithm(value) / 3.0) : 0.0; }
@@ -57,7 +59,8 @@ Cut cut_parts(const std::vector<ConvexPart>& parts, const FractureDescription& f
               std::uint64_t seed, double volume) {
     Random random(seed, fracture.seed, Random::Purpose::cut);
     const double smallest = fracture.smallest.value_or(usual_smallest * cube_root(volume));
-    const CutTolerance tolerance{cut_rounding * extent.bounds.extent().maxCoeff(), smallest * smallest * smallest};
+    const CutTolerance tolerance{cut_rounding * extent.bounds.extent().maxCoeff(), smallest * smallest * smallest,
+                                 no_volume * volume};
     const std::vector<CutStrip> strips = cut_strips(fracture, extent, random);
     const std::vector<std::size_t> counts = shares(parts, fracture.cells, volume);
     Cut cut;
@@ -149,13 +152,29 @@ void share_mass(const BodyDescription& whole, const Cut& cut, std::vector<BodyDe
     }
 }
 
-void check(const BodyDescription& whole, const Bounds& bounds) {
+/// Fails where the bonds leave more than one body.
+void check_joined(const std::vector<Bond>& bonds, std::size_t cells) {
+    DisjointSets groups(cells + 1);  // the last one is the world
+    for (const Bond& bond : bonds) groups.join(bond.a, bond.b == Bond::world ? cells : bond.b);
+    const bool held = groups.root(cells) != cells;
+    for (std::size_t i = 0; i < cells; ++i)
+        if (groups.root(i) != groups.root(held ? cells : 0))
+            throw InputError(
+                "needs a body of one piece, and some of its cells share no face with the others, or nothing holds "
+                "them: "
+                "let parts of compounds touch by flat faces");
+}
+
+void check(const BodyDescription& whole, const Bounds& bounds, double volume) {
     const FractureDescription& fracture = *whole.fracture;
     const double longest = bounds.extent().maxCoeff();
     if (fracture.smallest && *fracture.smallest < limits::least_cell * longest)
         throw InputError(
             fmt::format("has a smallest cell of {} m, and must have at least {} of the longest extent, {} m",
                         number_text(*fracture.smallest), number_text(limits::least_cell), number_text(longest)));
+    if (const double s = fracture.smallest.value_or(0.0); 2.0 * s * s * s > volume)
+        throw InputError(fmt::format("leaves one cell of at least {} m: give a smaller `smallest`, or a larger body",
+                                     number_text(s)));
     if (whole.center_of_mass || whole.inertia)
         throw InputError("is for bodies whose mass follows from their shape: give neither center_of_mass nor inertia");
 }
@@ -172,12 +191,10 @@ CutBody cut_body(const BodyDescription& whole, std::uint64_t seed) {
         extent.corners.insert(extent.corners.end(), part.cell.vertices.begin(), part.cell.vertices.end());
         extent.bounds.add(part.cell.bounds());
     }
-    check(whole, extent.bounds);
+    check(whole, extent.bounds, volume);
     const double longest = extent.bounds.extent().maxCoeff();
     Cut cut = cut_parts(parts, fracture, extent, seed, volume);
-    if (cut.cells.size() < 2)
-        throw InputError(fmt::format("leaves one cell of at least {} m: give a smaller `smallest`, or a larger body",
-                                     number_text(fracture.smallest.value_or(usual_smallest * cube_root(volume)))));
+    if (cut.cells.size() < 2) throw InputError("leaves one cell: give more `cells`, or a smaller `smallest`");
 
     CutBody made;
     std::vector<Vec3> centers;
@@ -190,12 +207,14 @@ CutBody cut_body(const BodyDescription& whole, std::uint64_t seed) {
     const double root = cube_root(volume);
     const BondRequest request{cut.cells, centers, touch_length * longest, least_bond_area * root * root};
     made.bonds = find_bonds(request);
-    if (whole.type == BodyType::dynamic) return made;
-    const std::size_t inner = made.bonds.size();
-    hold_to_world(request, extent.bounds, fracture.held, made.bonds);
-    if (made.bonds.size() == inner)
-        throw InputError(
-            "has no face in the held sides of its bounds: give `held` with the sides that hold it to the world");
+    if (whole.type != BodyType::dynamic) {
+        const std::size_t inner = made.bonds.size();
+        hold_to_world(request, extent.bounds, fracture.held, made.bonds);
+        if (made.bonds.size() == inner)
+            throw InputError(
+                "has no face in the held sides of its bounds: give `held` with the sides that hold it to the world");
+    }
+    check_joined(made.bonds, cut.cells.size());
     return made;
 }
 

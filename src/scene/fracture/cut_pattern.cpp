@@ -183,11 +183,10 @@ std::vector<CutStrip> cut_strips(const FractureRequest& request, const CutExtent
 
 void cut_by_strips(const ConvexCell& part, const std::vector<CutStrip>& strips, const CutTolerance& tolerance,
                    std::vector<ConvexCell>& cells) {
-    constexpr double nothing = 1e-3;  // of the least volume: a strip of less is dropped
     for (const CutStrip& strip : strips) {
         ConvexCell rest = part;
         for (const CutPlane& side : strip.sides) rest.clip(side, tolerance.length);
-        if (!(rest.volume() > nothing * tolerance.least_volume)) continue;
+        if (!(rest.volume() > tolerance.no_volume)) continue;
         for (const CutPlane& cut : strip.cuts) {
             ConvexCell inside = rest, beyond = rest;
             inside.clip(cut, tolerance.length);

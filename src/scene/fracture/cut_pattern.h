@@ -28,6 +28,7 @@ std::vector<CutStrip> cut_strips(const FractureRequest& request, const CutExtent
 struct CutTolerance {
     double length;        // m, of rounding
     double least_volume;  // m^3: smaller cells are merged into neighbors
+    double no_volume;     // m^3: a strip of less is dropped
 };
 
 /// Appends the cells of a convex part.
