@@ -57,6 +57,9 @@ public:
     bool breakable() const;
     const std::string& joint_name(std::size_t joint) const;  // given, or "joint" with the index
 
+    /// True for a scene with [water].
+    bool has_water() const;
+
     /// The scene file and the mesh files that were read.
     std::vector<std::string> files() const;
 

@@ -40,6 +40,7 @@ struct Energies {
     double motor_work = 0.0;  // the part of `work` by motors of joints
     double joint_heat = 0.0;  // the part of `friction_loss` in joints: friction, dampers, breaking
     double surface = 0.0;     // lost by impacts to the new surfaces of bodies that broke
+    double water_loss = 0.0;  // taken by water: by drag, and to move with bodies; below 0 where waves gave more
 };
 
 TUMBLE_END

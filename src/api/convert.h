@@ -82,7 +82,8 @@ inline Energies to_public(const Measurement& m, const EnergyLedger& ledger) {
             .elastic = m.elastic,
             .motor_work = ledger.motor_work,
             .joint_heat = ledger.joint_heat,
-            .surface = ledger.surface};
+            .surface = ledger.surface,
+            .water_loss = ledger.water_loss};
 }
 
 /// Throws InputError where the snapshot is not of a scene with that many bodies.

@@ -181,6 +181,8 @@ bool Scene::breakable() const {
 
 std::size_t Scene::joint_count() const { return data().description->joints.size(); }
 
+bool Scene::has_water() const { return data().description->water.has_value(); }
+
 const std::string& Scene::joint_name(std::size_t joint) const {
     const auto& joints = data().description->joints;
     if (joint < joints.size()) return joints[joint].name;

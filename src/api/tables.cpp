@@ -79,22 +79,26 @@ void TrajectoryTable::finish() {
 // -- EnergyTable
 
 struct EnergyTable::State : Writing {
-    State(const std::string& file, bool of_joints, bool of_breaks)
+    State(const std::string& file, bool of_joints, bool of_breaks, bool of_water)
         : joints(of_joints),
           breaks(of_breaks),
+          water(of_water),
           table(file, std::string("frame,time,kinetic,potential,total,px,py,pz,lx,ly,lz,contacts,max_penetration,"
                                   "kinetic_linear,kinetic_angular,work,impact_loss,friction_loss,elastic") +
-                          (of_joints ? ",motor_work,joint_heat" : "") + (of_breaks ? ",surface_energy" : "")) {}
+                          (of_joints ? ",motor_work,joint_heat" : "") + (of_breaks ? ",surface_energy" : "") +
+                          (of_water ? ",water_loss" : "")) {}
 
-    bool joints, breaks;
+    bool joints, breaks, water;
     TableWriter table;
 };
 
 EnergyTable::EnergyTable(const std::string& file) {
-    guarded([&] { state_ = std::make_unique<State>(file, false, false); });
+    guarded([&] { state_ = std::make_unique<State>(file, false, false, false); });
 }
 EnergyTable::EnergyTable(const std::string& file, const Scene& scene) {
-    guarded([&] { state_ = std::make_unique<State>(file, scene.joint_count() > 0, scene.breakable()); });
+    guarded([&] {
+        state_ = std::make_unique<State>(file, scene.joint_count() > 0, scene.breakable(), scene.has_water());
+    });
 }
 EnergyTable::~EnergyTable() = default;
 EnergyTable::EnergyTable(EnergyTable&&) noexcept = default;
@@ -115,6 +119,7 @@ void EnergyTable::add(std::int64_t frame, double time, const Energies& e) {
         table.number(e.work).number(e.impact_loss).number(e.friction_loss).number(e.elastic);
         if (state.joints) table.number(e.motor_work).number(e.joint_heat);
         if (state.breaks) table.number(e.surface);
+        if (state.water) table.number(e.water_loss);
         table.end_row();
     });
 }

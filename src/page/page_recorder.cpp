@@ -29,7 +29,7 @@ EnergySample energy_of(const Measurement& measured, const EnergyLedger& ledger) 
     energy.kinetic_angular = measured.kinetic_angular;
     energy.potential = measured.potential;
     energy.elastic = measured.elastic;
-    energy.work = ledger.work;
+    energy.work = ledger.work - ledger.water_loss;  // pages have no column of water
     energy.impact_loss = ledger.impact_loss;
     energy.friction_loss = ledger.friction_loss;
     energy.contacts = measured.contacts;

@@ -77,6 +77,7 @@ struct World::State {
         Vec3 place;  // m
     };
     double potential_at_start = 0.0;  // J, in fields, where the account of energies began
+    double water_at_start = 0.0;      // J, the same of displaced water
     std::vector<Sleeper> asleep;      // at the start of skipped steps, for the log
     ThreadPool pool;
 
@@ -122,15 +123,15 @@ struct World::State {
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
         auto& [settings, clock, steps, set, joints, joined, rolling, placed, woken, forces, detection, fracture, impacts,
-               hits, contact_solver, motion, sleep, check, log, totals, records, notes, potential_at_start, asleep, pool] =
-            self;
+               hits, contact_solver, motion, sleep, check, log, totals, records, notes, potential_at_start,
+               water_at_start, asleep, pool] = self;
         archive.rebuilt(settings, clock);
         archive.expect_bodies(set.bodies.size());
         archive.between(0, steps, most_steps);
         archive.keep(fracture);
         if constexpr (!std::is_const_v<Self>) self.fracture.rebuild(self.set, self.joints);
         archive.keep(set, joints, joined, forces, detection, impacts, hits, contact_solver, sleep, check);
-        if (forces.field().has_potential()) archive.keep(potential_at_start);
+        if (forces.field().has_potential()) archive.keep(potential_at_start, water_at_start);
         archive.require([&] { return self.sleep.sound(self.set.bodies); });
         if (notes) archive.keep(*notes);
         archive.scratch(rolling, placed, woken, motion, log, totals, records, asleep, pool);
@@ -253,6 +254,7 @@ void World::State::log_skipped(std::int64_t skipped) {
 
 void World::State::apply_forces(const StepContext& step) {
     using OutOfDate = ForceStage::OutOfDate;
+    if (forces.field().has_water()) forces.list_held(detection.manifolds(), set.bodies);
     // Ballistic bodies that are stepped from now on were moved to this position.
     forces.apply(step, motion->has_ballistic_bodies() ? OutOfDate::all
                        : impacts.any()                ? OutOfDate::velocities
@@ -295,7 +297,8 @@ void World::State::fall_asleep() {
     if (!settings.sleep || notes) return;
     const StepContext next = context();
     const std::uint64_t changes = sleep.changes();
-    sleep.observe(detection.islands(), detection.manifolds(), set.bodies, next.h, next.gravity_speed(), &joints);
+    sleep.observe(detection.islands(), detection.manifolds(), set.bodies, next.h, next.gravity_speed(), &joints,
+                  forces.field().has_water() ? &forces.field() : nullptr, next.start());
     if (sleep.changes() != changes) motion->bodies_fell_asleep(next);
 }
 
@@ -333,6 +336,8 @@ void World::State::finish_records(double duration) {
     // Fields give energy to the bodies out of their potential, which is no work.
     if (forces.field().has_potential())
         records.energy.work += forces.field().potential(set.bodies) - potential_at_start;
+    if (forces.field().has_water())
+        records.energy.water_loss -= forces.field().water_potential(set.bodies) - water_at_start;
     if (joints.empty()) return;
     if (log->has_records()) records.joints = joint_states();
     const JointEnergies energy = joints.energies(set.bodies);
@@ -378,6 +383,7 @@ void World::State::record(ContactLog::Detail detail) {
     joints.begin_frame();
     joints.start_account(set.bodies);
     potential_at_start = forces.field().potential(set.bodies);
+    water_at_start = forces.field().water_potential(set.bodies);
     finish_records(0.0);
 }
 
@@ -434,7 +440,7 @@ JointReport World::joint_report() const {
 Measurement World::measure() const {
     const State& s = *state_;
     Measurement m = measure_motion(s.set.bodies, s.settings.gravity, s.set.origin);
-    m.potential += s.forces.field().potential(s.set.bodies);
+    m.potential += s.forces.field().potential(s.set.bodies) + s.forces.field().water_potential(s.set.bodies);
     m.elastic = s.joints.elastic(s.set.bodies);
     const double rotors = s.joints.rotor_energy(s.set.bodies);
     m.kinetic += rotors;

@@ -64,6 +64,8 @@ const std::map<std::string, std::string> known = {
     {"scene/mesh/mesh_loader.h", "larger copies of meshes and compounds share their data"},
     {"sim/contact/model/rotational_friction.cpp", "parts of compounds"},
     {"sim/fields/explosions.cpp", "solid angles in closed form"},
+    {"sim/dynamics/forces.cpp", "meshes that enclose their mass: their volume in water"},
+    {"sim/water/drag_surface.cpp", "balls in closed form; triangles around curved parts"},
     {"sim/dynamics/body_builder.cpp", "a given center of mass: a compound of one part"},
     {"sim/geometry/collide.cpp", "parts of compounds"},
     {"sim/snapshot/measurement.cpp", "parts of compounds"},

@@ -45,4 +45,14 @@ Vec3 WaterSurface::velocity(const Vec3& point, double time) const {
     return sum;
 }
 
+Vec3 WaterSurface::acceleration(const Vec3& point, double time) const {
+    Vec3 sum = Vec3::Zero();
+    for (const Wave& wave : waves_) {
+        const SinCos phase = phase_at(wave, point.x(), point.z(), time);
+        const double size = wave.amplitude * wave.omega * wave.omega * exponential(wave.decay * (point.y() - level_));
+        sum += size * (phase.sin / wave.decay * wave.k - Vec3(0.0, phase.cos, 0.0));
+    }
+    return sum;
+}
+
 }  // namespace tumble

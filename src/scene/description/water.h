@@ -55,6 +55,8 @@ public:
     Vec3 normal(double x, double z, double time) const;
     /// m/s, of the water at a point below the surface: the current, and the motion by the waves.
     Vec3 velocity(const Vec3& point, double time) const;
+    /// m/s^2, of the water at such a point, by waves.
+    Vec3 acceleration(const Vec3& point, double time) const;
 
 private:
     double level_ = 0.0;

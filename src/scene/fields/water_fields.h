@@ -18,7 +18,7 @@ void visit_fields(Of<WaterDescription>, Visitor& field, Self& self) {
     field(self.current, "current", limits::velocity, {"of the water, horizontal; it carries the waves"});
     field(self.color, "color", ByType(), {.picture = true});
     field(self.visible_in_aov, "visible_in_aov", ByType(),
-          {.text = "false: AOVs show what is below the surface", .picture = true});
+          {.text = "false: AOVs show the bodies below the surface", .picture = true});
     field(self.waves, "waves", ByCode(), {"see [waves](#waves)", "none: still water", "16 at most", "array of tables"});
 }
 

@@ -225,7 +225,7 @@ void TreeFlight::add_pushes(const Vector& y, Vector& dy, double ahead) {
         const Mat3& rotation = link.rotation;
         const Vec3 velocity = link.center_velocity() + speed, place = link.position();
         const Vec3 at_scene = place + (free ? frame_.place(t) : tree_.origin());
-        Wrench wrench = step_->forces.at(index, body, at_scene, velocity, rotation, law_time_);
+        Wrench wrench = step_->forces.at(index, body, at_scene, {velocity, link.velocity.turn}, rotation, law_time_);
         wrench.force -= body.mass * frame_.gravity;
         pushes_[i] = wrench;
         dynamics_.apply(node, wrench);

@@ -1,6 +1,7 @@
 #include "sim/dynamics/forces.h"
 
 #include "core/sort_unique.h"
+#include "sim/dynamics/body_builder.h"
 #include "sim/math/free_rotation.h"
 
 #include <algorithm>
@@ -33,6 +34,44 @@ std::vector<std::size_t> places_of(std::size_t count, std::span<const std::uint3
     return places;
 }
 
+/// A mesh that encloses its mass is its own volume in water; a shell and a hull displace what their hull does.
+std::shared_ptr<const TriangleMesh> solid_of(const BodyDescription& d, const Vec3& center_of_mass) {
+    const auto* mesh = std::get_if<MeshShape>(&d.shape);
+    if (mesh == nullptr || mesh->mass_from != MassFrom::solid) return nullptr;
+    auto solid = std::make_shared<TriangleMesh>(mesh->asset->mesh);
+    for (Vec3& v : solid->vertices) v -= center_of_mass;
+    return solid;
+}
+
+std::shared_ptr<const WaterForces> water_of(const SceneDescription& scene, const std::vector<std::size_t>& places,
+                                            const Vec3& origin) {
+    if (!scene.water) return nullptr;
+    auto water =
+        std::make_shared<WaterForces>(*scene.water, scene.simulation.gravity.norm(), origin, scene.bodies.size());
+    BodyBuilder builder(scene.contact);
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        const BodyDescription& d = scene.bodies[i];
+        if (!d.dynamic()) continue;
+        const Body body = builder.build(d, scene.simulation.integrator);
+        water->add(places[i], body.collider, solid_of(d, body.center_of_mass),
+                   d.water_drag.value_or(scene.water->drag));
+    }
+    return water;
+}
+
+WaterBody matter_of(const Body& body) { return {body.mass, body.inertia_body, body.inverse_inertia_body}; }
+
+WaterMotion motion_of(const Body& body) { return {body.pose(), body.velocity, body.angular_velocity}; }
+
+Wrench sum_of(const Wrench& a, const Wrench& b, double share = 1.0) {
+    return {a.force + share * b.force, a.torque + share * b.torque};
+}
+
+WaterMotion motion_at(const WaterBody& matter, const FlightPoint& at) {
+    const Vec3 in_body = matter.inverse_inertia * (at.rotation.transpose() * at.angular_momentum);
+    return {{at.position, at.rotation}, at.velocity, at.rotation * in_body};
+}
+
 /// The bodies with forces between each other at their present places.
 struct PresentPairs {
     PresentPairs(const PairForces& pairs, const std::vector<Body>& bodies) {
@@ -62,7 +101,8 @@ ForceField::ForceField(const SceneDescription& scene, std::span<const std::uint3
       place_(scene.fields, origin),
       explosions_(scene.explosions, origin),
       pairs_(scene.pair_forces, places_of(scene.bodies.size(), order)),
-      held_(pairs_.bodies().size()) {
+      held_(pairs_.bodies().size()),
+      water_(water_of(scene, places_of(scene.bodies.size(), order), origin)) {
     const std::vector<std::size_t> places = places_of(scene.bodies.size(), order);
     for (const ForceDescription& f : scene.forces) at_points_[places[f.body]].push_back(f);
     for (std::size_t body = 0; body < places.size(); ++body)
@@ -137,10 +177,51 @@ Wrench ForceField::weather(const Body& body, const Vec3& velocity) const {
 }
 
 Wrench ForceField::fields(std::size_t index, const Body& body, double from, double to) const {
+    Wrench sum = dry_fields(index, body, from, to);
+    if (water_) add_water(sum, index, body, from, to - from, false);
+    return sum;
+}
+
+Wrench ForceField::dry_fields(std::size_t index, const Body& body, double from, double to) const {
     Wrench sum = weather(body, body.velocity);
     if (!place_.empty()) sum.force += place_.mean({body.mass, body.position, body.velocity}, from, to);
     if (!pairs_.empty()) sum += held(index);
     return sum;
+}
+
+// Adds the forces of the water over a step of h seconds to the others, and takes from all what the water around a free
+// body takes. The drag is that of the mean velocity, as in one dimension: it stops no body within a step. A thin plate
+// whose buoyancy would turn its motion within a step moves as if heavier.
+void ForceField::add_water(Wrench& sum, std::size_t index, const Body& body, double time, double h, bool flies) const {
+    const WaterBody matter = matter_of(body);
+    const WaterLoad load = water_->load(index, matter, motion_of(body), time, flies, h);
+    sum = sum_of(sum_of(sum, load.buoyancy), load.drag, 1.0 / (1.0 + h * load.drag_rate));
+    if (flies) sum = WaterForces::on_free(matter, load, body.rotation, sum);
+    const double stiff = load.stiffness * h * h;
+    if (stiff > body.mass) sum = sum_of({}, sum, body.mass / stiff);
+}
+
+Wrench ForceField::water(std::size_t index, const Body& body, double from, double to, bool flies) const {
+    const Wrench dry = throughout_dry(index, body, from, to);
+    Wrench all = dry;
+    add_water(all, index, body, from, to - from, flies);
+    return sum_of(all, dry, -1.0);
+}
+
+double ForceField::water_potential(const std::vector<Body>& bodies) const {
+    double sum = 0.0;
+    if (!water_ || !water_->still()) return sum;
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+        if (bodies[i].dynamic()) sum += water_->potential(i, bodies[i].pose());
+    return sum;
+}
+
+bool ForceField::afloat(std::size_t index, const Body& body) const {
+    return water_ && water_->rests() && water_->wets(index, body.pose(), 0.0);
+}
+
+bool ForceField::stirred(std::size_t index, const Body& body, double time) const {
+    return water_ && !water_->still() && water_->wets(index, body.pose(), time);
 }
 
 template <class Choose>
@@ -150,24 +231,63 @@ void ForceField::add_points(Wrench& sum, std::size_t index, const Body& body, co
         if (choose(f)) add(sum, f, body, rotation);
 }
 
-Wrench ForceField::at(std::size_t index, const Body& body, const Vec3& position, const Vec3& velocity,
+Wrench ForceField::at(std::size_t index, const Body& body, const Vec3& position, const BodyVelocity& velocity,
                       const Mat3& rotation, double time) const {
-    Wrench sum = alone(index, body, position, velocity, rotation, time);
+    Wrench sum = alone(index, body, {body.mass, position, velocity.velocity}, rotation, time);
     if (!pairs_.empty()) sum += held(index);
-    return sum;
+    if (!water_) return sum;
+    const WaterLoad load = water_->load(
+        index, matter_of(body), {{position, rotation}, velocity.velocity, velocity.angular_velocity}, time, false);
+    return sum_of(sum_of(sum, load.buoyancy), load.drag);
 }
 
-Wrench ForceField::alone(std::size_t index, const Body& body, const Vec3& position, const Vec3& velocity,
-                         const Mat3& rotation, double time) const {
-    Wrench sum = weather(body, velocity);
-    if (!place_.empty()) sum.force += place_.at({body.mass, position, velocity}, time);
+Wrench ForceField::in_flight(std::size_t index, const Body& body, const FlightPoint& at, const FlightTime& time,
+                             const Wrench& pull) const {
+    Wrench sum = alone(index, body, {body.mass, at.position, at.velocity}, at.rotation, time.middle);
+    if (!pairs_.empty()) sum += pull;
+    if (!water_) return sum;
+    const WaterBody matter = matter_of(body);
+    const WaterLoad load = water_->load(index, matter, motion_at(matter, at), time.start + at.elapsed, true);
+    return WaterForces::on_free(matter, load, at.rotation, sum_of(sum_of(sum, load.buoyancy), load.drag));
+}
+
+double ForceField::parts_in_water(std::size_t index, const Body& body, const FlightPoint& at, double from,
+                                  double to) const {
+    const double span = to - from;
+    return std::max(span * water_rate(index, body, at, from),
+                    water_->parts_of_entry(index, motion_at(matter_of(body), at), span, from));
+}
+
+double ForceField::water_rate(std::size_t index, const Body& body, const FlightPoint& at, double time) const {
+    const WaterBody matter = matter_of(body);
+    const WaterLoad load = water_->load(index, matter, motion_at(matter, at), time, true);
+    if (!(load.displaced > 0.0)) return 0.0;
+    return load.drag_rate + std::sqrt(load.stiffness * body.inverse_mass) + water_->wave_rate();
+}
+
+Wrench ForceField::alone(std::size_t index, const Body& body, const MassPoint& point, const Mat3& rotation,
+                         double time) const {
+    Wrench sum = weather(body, point.velocity);
+    if (!place_.empty()) sum.force += place_.at(point, time);
     add_points(sum, index, body, rotation, [&](const ForceDescription& f) { return time >= f.start && time < f.end; });
     return sum;
 }
 
-Wrench ForceField::throughout(std::size_t index, const Body& body, double from, double to) const {
-    Wrench sum = fields(index, body, from, to);
+Wrench ForceField::throughout_dry(std::size_t index, const Body& body, double from, double to) const {
+    Wrench sum = dry_fields(index, body, from, to);
     add_points(sum, index, body, body.rotation, [&](const ForceDescription& f) { return covers(f, from, to); });
+    return sum;
+}
+
+Wrench ForceField::throughout(std::size_t index, const Body& body, double from, double to) const {
+    Wrench sum = throughout_dry(index, body, from, to);
+    if (water_) add_water(sum, index, body, from, to - from, false);
+    return sum;
+}
+
+Wrench ForceField::flown(std::size_t index, const Body& body, double from, double to) const {
+    Wrench sum = throughout_dry(index, body, from, to);
+    if (water_) add_water(sum, index, body, from, to - from, true);
     return sum;
 }
 
@@ -238,8 +358,8 @@ bool ForceField::constant(std::size_t index, double from, double to) const {
 
 bool ForceField::torque_free(std::size_t index, double time) const {
     if (pairs_.has_torques() && pairs_.turns(std::uint32_t(index), time)) return false;
-    return std::none_of(at_points_[index].begin(), at_points_[index].end(),
-                        [&](const ForceDescription& f) { return time >= f.start && time < f.end; });
+    return !water_ && std::none_of(at_points_[index].begin(), at_points_[index].end(),
+                                   [&](const ForceDescription& f) { return time >= f.start && time < f.end; });
 }
 
 double ForceField::drag_rate(const Body& body) const {

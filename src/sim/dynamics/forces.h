@@ -1,15 +1,21 @@
-// External forces and torques on a body (notes section 3): gravity, wind, fields, forces between bodies, and forces at
-// points.
+// External forces and torques on a body (notes section 3): gravity, wind, fields, forces between bodies, forces at
+// points, and water.
+//
+// A body that moves freely in water takes some of the water along: its forces are then those that are left for itself.
+// Bodies in contact and bodies in joints take the whole forces, so that loads at rest are exact.
 #pragma once
 
 #include "scene/description/description.h"
 #include "sim/dynamics/body.h"
+#include "sim/dynamics/flight_point.h"
 #include "sim/fields/explosions.h"
 #include "sim/fields/pair_forces.h"
 #include "sim/math/wrench.h"
+#include "sim/water/water_forces.h"
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -32,26 +38,42 @@ public:
     void move_points(std::size_t from, const std::function<std::uint32_t(const Vec3& point)>& to);
     /// Calls `use` for each force at a point of the body at a time, s.
     void each_point(std::size_t index, double time, const std::function<void(const ForceDescription&)>& use) const;
-    bool has_potential() const { return !place_.empty() || !pairs_.empty(); }
+    bool has_potential() const { return !place_.empty() || !pairs_.empty() || water_; }
     /// J, in fields and in forces between bodies.
     double potential(const std::vector<Body>& bodies) const;
+    bool has_water() const { return water_ != nullptr; }
+    /// J, of the water that bodies displace. Zero with waves, whose forces have no potential.
+    double water_potential(const std::vector<Body>& bodies) const;
+    /// The forces of the water alone, as those of throughout() and of flown().
+    Wrench water(std::size_t index, const Body& body, double from, double to, bool flies) const;
+    /// True if water at rest carries a part of the body's weight; true if moving water keeps it in motion.
+    bool afloat(std::size_t index, const Body& body) const;
+    bool stirred(std::size_t index, const Body& body, double time) const;
 
     /// The sum of all forces on the body at time t (s), for its present state.
     Wrench at(std::size_t index, const Body& body, double time) const {
-        return at(index, body, body.position, body.velocity, body.rotation, time);
+        return at(index, body, body.position, {body.velocity, body.angular_velocity}, body.rotation, time);
     }
-    /// The same for another place (m), velocity (m/s) and rotation: reads only constant properties of the body. Forces
-    /// between bodies are those held.
-    Wrench at(std::size_t index, const Body& body, const Vec3& position, const Vec3& velocity, const Mat3& rotation,
-              double time) const;
-    /// The same without forces between bodies.
-    Wrench alone(std::size_t index, const Body& body, const Vec3& position, const Vec3& velocity, const Mat3& rotation,
-                 double time) const;
+    /// The same for another place (m), other velocities and another rotation: reads only constant properties of the
+    /// body. Forces between bodies are those held.
+    Wrench at(std::size_t index, const Body& body, const Vec3& position, const BodyVelocity& velocity,
+              const Mat3& rotation, double time) const;
+    /// Times (s) of a part of a flight within which no force begins or ends: its middle, and the start of the span.
+    struct FlightTime {
+        double middle, start;
+    };
+    /// The sum of all forces on a body that moves freely. `pull`: of the forces between bodies.
+    Wrench in_flight(std::size_t index, const Body& body, const FlightPoint& at, const FlightTime& time,
+                     const Wrench& pull) const;
+    /// N, of the forces between bodies that are held.
+    Vec3 held(std::size_t index) const;
 
     /// Gravity, wind and fields in [from, to), for the body's present state.
     Wrench fields(std::size_t index, const Body& body, double from, double to) const;
     /// The same and the forces at points that act throughout [from, to), for the body's present state.
     Wrench throughout(std::size_t index, const Body& body, double from, double to) const;
+    /// The same on a body that moves freely.
+    Wrench flown(std::size_t index, const Body& body, double from, double to) const;
     /// The same without forces that end at some time: for the part of a step that a clamped body loses.
     Wrench endless(std::size_t index, const Body& body, double from, double to) const;
     /// The impulse within [from, to) of the forces at points that act in only a part of it. The body rotates freely
@@ -75,10 +97,14 @@ public:
     bool torque_free(std::size_t index, double time) const;
     /// Rate of deceleration by drag: |dF/dv| / m per m/s of the speed relative to the air, 1/m.
     double drag_rate(const Body& body) const;
-    /// Fastest rate at which fields change the motion at a time, 1/s.
-    double field_rate(const Body& body, const Vec3& position, const Vec3& velocity, double time) const {
-        return place_.empty() ? 0.0 : place_.rate({body.mass, position, velocity}, time);
+    /// Fastest rate at which fields and water change the motion at a time, 1/s.
+    double field_rate(std::size_t index, const Body& body, const FlightPoint& at, double time) const {
+        return (place_.empty() ? 0.0 : place_.rate({body.mass, at.position, at.velocity}, time)) +
+               (water_ ? water_rate(index, body, at, time) : 0.0);
     }
+    /// Number of parts of a span in which a body in water neither bobs, nor is braked, nor gets wet within one.
+    double parts_in_water(std::size_t index, const Body& body, const FlightPoint& at, double from, double to) const;
+    double water_rate(std::size_t index, const Body& body, const FlightPoint& at, double time) const;
     /// The air's velocity, m/s.
     Vec3 wind() const { return wind_ ? wind_->velocity : Vec3(Vec3::Zero()); }
 
@@ -96,10 +122,14 @@ private:
     template <class Choose>
     Impulse impulse(std::size_t index, const Body& body, double from, double to, const Choose& choose) const;
     bool plain(std::size_t index) const {
-        return !wind_ && place_.empty() && (pairs_.empty() || !pairs_.has(std::uint32_t(index)));
+        return !wind_ && !water_ && place_.empty() && (pairs_.empty() || !pairs_.has(std::uint32_t(index)));
     }
     Wrench weather(const Body& body, const Vec3& velocity) const;
     Wrench held(std::size_t index) const;
+    Wrench alone(std::size_t index, const Body& body, const MassPoint& point, const Mat3& rotation, double time) const;
+    Wrench dry_fields(std::size_t index, const Body& body, double from, double to) const;
+    Wrench throughout_dry(std::size_t index, const Body& body, double from, double to) const;
+    void add_water(Wrench& sum, std::size_t index, const Body& body, double time, double h, bool flies) const;
 
     Vec3 gravity_;
     std::optional<WindDescription> wind_;
@@ -109,7 +139,8 @@ private:
     Explosions explosions_;
     std::vector<std::uint32_t> blasted_;  // bodies with forces of explosions, which stand last in at_points_
     PairForces pairs_;
-    std::vector<Wrench> held_;  // in the order of PairForces::bodies()
+    std::vector<Wrench> held_;                  // in the order of PairForces::bodies()
+    std::shared_ptr<const WaterForces> water_;  // null: none
 };
 
 }  // namespace tumble

@@ -271,6 +271,8 @@ void EventDrivenMotion::give_rest_of_step(std::uint32_t k, std::vector<Body>& bo
     const double from = clock_.seconds(now), to = clock_.seconds(now.step + 1);
     const double rest = clock_.between(now, {now.step + 1, 0.0});
     const bool pushed = events_[k].pushed;
+    Wrench of_water;
+    if (log_ && forces.has_water()) of_water = forces.water(k, body, from, to, false);
     const Wrench wrench = pushed ? forces.fields(k, body, from, to) : forces.throughout(k, body, from, to);
     const Impulse brief_impulse = pushed ? Impulse{} : forces.brief(k, body, from, to);
     advance_momenta(body, wrench.force, wrench.torque, rest);
@@ -281,6 +283,8 @@ void EventDrivenMotion::give_rest_of_step(std::uint32_t k, std::vector<Body>& bo
                                    rest * wrench.torque};
         log_->add_gravity(k, body, rest, body.position);
         log_->add_external(k, rest_of_step + brief_impulse, body.position, {body.velocity, body.angular_velocity});
+        log_->add_water_work(k,
+                             rest * (of_water.force.dot(body.velocity) + of_water.torque.dot(body.angular_velocity)));
     }
     events_[k].pushed = true;
 }

@@ -448,7 +448,8 @@ void ContactLog::add_losses(const std::vector<Body>& bodies) {
     double lost = handed_over_ - surface_;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         if (!bodies[i].dynamic()) continue;
-        records_.energy.work += accounts_[i].work;
+        records_.energy.work += accounts_[i].work - accounts_[i].water;
+        records_.energy.water_loss -= accounts_[i].water;
         if (accounts_[i].touched)
             lost -= energy(bodies[i]) - accounts_[i].energy - accounts_[i].work - accounts_[i].joints;
     }
@@ -487,7 +488,11 @@ void ContactLog::name_by_scene() {
 ContactRecords ContactLog::finish_frame(const std::vector<Body>& bodies, const ForceField& forces,
                                         const std::vector<Manifold>& touching, double duration) {
     for (std::uint32_t i = 0; i < bodies.size(); ++i)
-        if (bodies[i].flying && !bodies[i].jointed) end_flight(i, bodies[i], !forces.only_gravity(i));
+        if (bodies[i].flying && !bodies[i].jointed) {
+            const double before = accounts_[i].work;
+            end_flight(i, bodies[i], !forces.only_gravity(i));
+            if (forces.has_water()) accounts_[i].water += accounts_[i].work - before;
+        }
     add_losses(bodies);
     if (!has_records()) return records_;
     // Contacts of sleeping bodies keep the forces of their last frame.

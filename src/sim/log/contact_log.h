@@ -72,6 +72,8 @@ public:
     /// Between these calls nothing but external forces changes the body's momenta: their change is the forces' impulse.
     /// `end_flight` may be called repeatedly. `driven`: by forces other than gravity, whose work is then added.
     void add_work(std::uint32_t index, double work) { accounts_[index].work += work; }  // J, of external forces
+    /// The part of such work by water, J.
+    void add_water_work(std::uint32_t index, double work) { accounts_[index].water += work; }
     void start_flight(std::uint32_t index, const Body& body);
     void end_flight(std::uint32_t index, const Body& body, bool driven);
     /// The same for the momentum (kg m/s) at a position (m), of a body under gravity alone.
@@ -123,6 +125,7 @@ private:
         double energy = 0.0;         // J, at the start
         double work = 0.0;           // J, from outside
         double joints = 0.0;         // J, work of joints
+        double water = 0.0;          // J, the part of `work` by water
         bool touched = false;        // by an impact or a contact
     };
     void add_record(const ImpactTrace::Entry& entry, const Contact& contact, const Vec3& point,

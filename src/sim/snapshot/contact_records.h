@@ -118,10 +118,11 @@ struct EnergyLedger {
     double motor_work = 0.0;     // the part of `work` by motors of joints
     double joint_heat = 0.0;     // the part of `friction_loss` in joints: friction, dampers, breaking
     double surface = 0.0;        // by impacts, in the new surfaces of bodies that broke
+    double water_loss = 0.0;     // taken by water, without the potential of the displaced water
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [work, impact_loss, friction_loss, motor_work, joint_heat, surface] = self;
-        archive.keep(work, impact_loss, friction_loss, motor_work, joint_heat, surface);
+        auto& [work, impact_loss, friction_loss, motor_work, joint_heat, surface, water_loss] = self;
+        archive.keep(work, impact_loss, friction_loss, motor_work, joint_heat, surface, water_loss);
     }
 };
 

@@ -55,13 +55,15 @@ void ForceStage::apply(const StepContext& step, OutOfDate derived) {
         else if (derived == OutOfDate::velocities)
             body.derive_velocities();
         set.old_velocities[i] = {body.velocity, body.angular_velocity};
-        const Wrench wrench = field_.throughout(i, body, now, next);
+        const Wrench pushes = wrench(i, body, now, next);
+        Wrench of_water;
+        if (step.log && field_.has_water()) of_water = field_.water(i, body, now, next, flies(i));
         effects_[i].before = {body.momentum, body.angular_momentum};
-        advance_momenta(body, wrench.force, wrench.torque, h);
+        advance_momenta(body, pushes.force, pushes.torque, h);
         effects_[i].after.momentum = body.momentum;
         effects_[i].after.angular_momentum = body.angular_momentum;
         body.derive_velocities();
-        if (step.log) log_forces(step, i, wrench);
+        if (step.log) log_forces(step, i, pushes, of_water);
         if (body.integrator != IntegratorKind::explicit_euler) find_gyration(body, h);
     });
     if (!step.log) return;
@@ -78,14 +80,25 @@ void ForceStage::log_asleep(const StepContext& step, std::uint32_t i, double spa
         i, {span * (wrench.force - body.mass * body.fall(step.settings.gravity)), span * wrench.torque}, place, {});
 }
 
-void ForceStage::log_forces(const StepContext& step, std::uint32_t i, const Wrench& wrench) const {
+void ForceStage::log_forces(const StepContext& step, std::uint32_t i, const Wrench& wrench,
+                            const Wrench& of_water) const {
     const Body& body = step.set.bodies[i];
     const Vec3 place = place_of_forces(i, step);
     step.log->add_gravity(i, body, step.h, place);
     if (field_.only_gravity(i)) return;
+    const BodyVelocity mean = mean_velocity(step.set.old_velocities[i], body);
     step.log->add_external(
         i, {step.h * (wrench.force - body.mass * body.fall(step.settings.gravity)), step.h * wrench.torque}, place,
-        mean_velocity(step.set.old_velocities[i], body));
+        mean);
+    step.log->add_water_work(i,
+                             step.h * (of_water.force.dot(mean.velocity) + of_water.torque.dot(mean.angular_velocity)));
+}
+
+void ForceStage::list_held(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies) {
+    held_.assign(bodies.size(), 0);
+    for (const Manifold& m : manifolds) held_[m.a] = held_[m.b] = 1;
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+        if (bodies[i].jointed) held_[i] = 1;
 }
 
 void ForceStage::apply_brief(const StepContext& step) {

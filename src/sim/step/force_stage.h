@@ -4,6 +4,7 @@
 
 #include "sim/dynamics/forces.h"
 #include "sim/dynamics/integrators/rigid_state.h"
+#include "sim/geometry/manifold.h"
 #include "sim/step/body_set.h"
 
 #include <vector>
@@ -27,6 +28,13 @@ public:
     void begin(const StepContext& step);
     /// Wakes bodies on which a force begins or ends in the step.
     void wake(const StepContext& step) const;
+
+    /// Before apply(), in water: bodies near others and bodies in joints do not move freely.
+    void list_held(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies);
+    /// The forces that apply() gives to the body.
+    Wrench wrench(std::uint32_t i, const Body& body, double from, double to) const {
+        return flies(i) ? field_.flown(i, body, from, to) : field_.throughout(i, body, from, to);
+    }
 
     /// Which derived quantities of the awake bodies are out of date when the forces are applied.
     enum class OutOfDate { none, velocities, all };
@@ -63,9 +71,9 @@ public:
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [field, effects, ending] = self;
+        auto& [field, effects, ending, held] = self;
         archive.rebuilt(field);
-        archive.scratch(effects, ending);
+        archive.scratch(effects, ending, held);
     }
 
 private:
@@ -77,11 +85,13 @@ private:
         Momenta before, after;
     };
 
-    void log_forces(const StepContext& step, std::uint32_t i, const Wrench& wrench) const;
+    void log_forces(const StepContext& step, std::uint32_t i, const Wrench& wrench, const Wrench& of_water) const;
+    bool flies(std::uint32_t i) const { return !held_.empty() && held_[i] == 0; }
 
     ForceField field_;
     std::vector<Effect> effects_;  // by body
     std::vector<Impulse> ending_;  // by body: of forces that end at some time; empty without forces at points
+    std::vector<char> held_;       // by body; empty without water
 };
 
 }  // namespace tumble

@@ -41,7 +41,7 @@ double energy_less_logged(std::uint32_t i, Body& body, const StepContext& step) 
     const BodyVelocity kicked{body.velocity, body.angular_velocity};
     body.derive();
     const BodyVelocity mean = mean_of(kicked, {body.velocity, body.angular_velocity});
-    Wrench wrench = step.forces.field().throughout(i, body, step.start(), step.end());
+    Wrench wrench = step.forces.wrench(i, body, step.start(), step.end());
     wrench.force -= body.mass * body.fall(step.settings.gravity);
     return energy_of(body, step) +
            step.h * (wrench.force.dot(mean.velocity) + wrench.torque.dot(mean.angular_velocity));
@@ -141,7 +141,11 @@ void SteppedMotion::move(std::uint32_t i, const CcdFraction& limit, const StepCo
         // The forces of the step are logged as of its start: the flight's end gives the difference.
         if (step.log) {
             step.log->end_flight(i, body, false);
-            if (books) step.log->add_work(i, energy_of(body, step) - before);
+            if (books) {
+                const double left = energy_of(body, step) - before;
+                step.log->add_work(i, left);
+                if (forces.field().has_water()) step.log->add_water_work(i, left);
+            }
             if (share < 1.0) step.log->add_gravity(i, body, (1.0 - share) * h, body.position);
         }
     } else {

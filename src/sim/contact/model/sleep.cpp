@@ -1,11 +1,13 @@
 #include "sim/contact/model/sleep.h"
 
 #include "sim/contact/model/contact_constraint.h"
+#include "sim/dynamics/forces.h"
 #include "sim/geometry/contact_tolerance.h"
 #include "sim/joints/joint_set.h"
 #include "sim/joints/settings.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace tumble {
 
@@ -156,18 +158,38 @@ void SleepMonitor::sample(Watch& watch, Trend& trend, const Body& body, double s
     trend = now;
 }
 
+bool SleepMonitor::rests(std::uint32_t i, const Body& body, double h, double speed_change) {
+    Watch& watch = watches_[i];
+    watch.since += h;
+    if (watch.since >= sleep_sample_interval) sample(watch, trends_[i], body, speed_change);
+    const bool stays = follow(watch.spans, body, h);
+    return (watch.ends || (stays && watch.steady < sleep_samples)) && !body.flying;
+}
+
+void SleepMonitor::lay_down(std::vector<std::uint32_t> members, std::vector<Body>& bodies) {
+    ++changes_;
+    sleepers_ += members.size();
+    const auto group = std::make_shared<const std::vector<std::uint32_t>>(std::move(members));
+    for (const std::uint32_t i : *group) {
+        Body& body = bodies[i];
+        body.asleep = true;
+        body.momentum.setZero();
+        body.angular_momentum.setZero();
+        body.derive();
+        groups_[i] = group;
+    }
+}
+
 void SleepMonitor::observe(const ContactIslands& islands, const std::vector<Manifold>& manifolds,
-                           std::vector<Body>& bodies, double h, double speed_change, const JointSet* joints) {
+                           std::vector<Body>& bodies, double h, double speed_change, const JointSet* joints,
+                           const ForceField* water, double time) {
+    if (water != nullptr) observe_afloat(islands, bodies, h, speed_change, *water, time);
     for (std::size_t island = 0; island < islands.size(); ++island) {
         bool still = true, supported = false;
         for (const std::uint32_t i : islands.bodies(island)) {
             // in each step, whatever the other bodies do
-            Watch& watch = watches_[i];
-            watch.since += h;
-            if (watch.since >= sleep_sample_interval) sample(watch, trends_[i], bodies[i], speed_change);
-            const bool stays = follow(watch.spans, bodies[i], h);
-            const bool rests = watch.ends || (stays && watch.steady < sleep_samples);
-            still = still && rests && !bodies[i].flying;
+            const bool at_rest = rests(i, bodies[i], h, speed_change);
+            still = still && at_rest;
         }
         if (!still) continue;
         for (const std::uint32_t k : islands.manifolds(island)) {
@@ -181,19 +203,25 @@ void SleepMonitor::observe(const ContactIslands& islands, const std::vector<Mani
             for (const std::uint32_t i : {joint.a, joint.b})
                 supported = supported || i == Joint::world || stands(bodies[i]);
         }
-        if (!still || !supported) continue;
-        ++changes_;
-        sleepers_ += islands.bodies(island).size();
         const auto members = islands.bodies(island);
-        const auto group = std::make_shared<const std::vector<std::uint32_t>>(members.begin(), members.end());
-        for (const std::uint32_t i : members) {
-            Body& body = bodies[i];
-            body.asleep = true;
-            body.momentum.setZero();
-            body.angular_momentum.setZero();
-            body.derive();
-            groups_[i] = group;
-        }
+        if (still && water != nullptr)
+            for (const std::uint32_t i : members) {
+                still = still && !water->stirred(i, bodies[i], time);
+                supported = supported || water->afloat(i, bodies[i]);
+            }
+        if (still && supported) lay_down({members.begin(), members.end()}, bodies);
+    }
+}
+
+void SleepMonitor::observe_afloat(const ContactIslands& islands, std::vector<Body>& bodies, double h,
+                                  double speed_change, const ForceField& water, double time) {
+    std::vector<char> touches(bodies.size(), 0);
+    for (std::size_t island = 0; island < islands.size(); ++island)
+        for (const std::uint32_t i : islands.bodies(island)) touches[i] = 1;
+    for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+        if (touches[i] != 0 || !bodies[i].dynamic() || bodies[i].asleep) continue;
+        if (rests(i, bodies[i], h, speed_change) && water.afloat(i, bodies[i]) && !water.stirred(i, bodies[i], time))
+            lay_down({i}, bodies);
     }
 }
 

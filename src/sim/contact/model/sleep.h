@@ -4,6 +4,7 @@
 // as evenly, at any scale; trembling and settling bodies show neither. Dampers in joints bring bodies to rest over
 // seconds, with a change that decreases in proportion to the velocity: they are at rest once the way that is left is as
 // short. An island sleeps when all its bodies are at rest and it touches a support that stands, fixed or kinematic.
+// Still water is a support, too; waves keep what they wet awake.
 // Bodies in free flight never sleep, however slow.
 #pragma once
 
@@ -19,6 +20,7 @@
 
 namespace tumble {
 
+class ForceField;
 class JointSet;
 
 class SleepMonitor {
@@ -37,9 +39,10 @@ public:
     void exchange(std::span<const std::uint32_t> changed);
 
     /// Observes the awake bodies over a step of h seconds and puts islands at rest to sleep. `speed_change` (m/s): by
-    /// gravity in the step.
+    /// gravity in the step. `water`: the forces of a scene with water at `time` (s), otherwise null.
     void observe(const ContactIslands& islands, const std::vector<Manifold>& manifolds, std::vector<Body>& bodies,
-                 double h, double speed_change = 0.0, const JointSet* joints = nullptr);
+                 double h, double speed_change = 0.0, const JointSet* joints = nullptr,
+                 const ForceField* water = nullptr, double time = 0.0);
 
     /// True if the sleeping bodies are just the members of the groups that they fell asleep with.
     bool sound(const std::vector<Body>& bodies) const;
@@ -100,6 +103,12 @@ private:
     static bool follow(Spans& spans, const Body& body, double h);
     static void sample(Watch& watch, Trend& trend, const Body& body, double speed_change);
     static double way_left(const Trend& before, const Trend& now, double since);
+    /// Observes a body over h seconds. Returns true if it is at rest.
+    bool rests(std::uint32_t i, const Body& body, double h, double speed_change);
+    void lay_down(std::vector<std::uint32_t> members, std::vector<Body>& bodies);
+    /// Bodies that float and touch nothing are in no island.
+    void observe_afloat(const ContactIslands& islands, std::vector<Body>& bodies, double h, double speed_change,
+                        const ForceField& water, double time);
 
     std::vector<Watch> watches_;  // by body
     std::vector<Trend> trends_;

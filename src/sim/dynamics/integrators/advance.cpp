@@ -37,8 +37,8 @@ void for_each_span(const Body& body, const ForceField& forces, std::size_t index
         const double end = std::min(to, forces.next_change(index, from));
         // A force that acts at the part's middle acts throughout; at the part's ends, rounding of times would decide.
         const double middle = 0.5 * (from + end);
-        const auto law = [&](const Vec3& position, const Vec3& velocity, const Mat3& rotation) {
-            return forces.at(index, body, position, velocity, rotation, middle);
+        const auto law = [&](const FlightPoint& at) {
+            return forces.in_flight(index, body, at, {middle, from}, forces.held(index));
         };
         part(from, end, law);
         from = end;
@@ -62,7 +62,7 @@ double rate_of(const RigidState& s, const RigidMass& mass, const ForceLaw& law, 
                double span) {
     const Vec3 velocity = mass.inverse_mass * s.momentum;
     const Mat3 rotation = s.orientation.toRotationMatrix();
-    const Wrench wrench = law(s.position, velocity, rotation);
+    const Wrench wrench = law({s.position, velocity, s.angular_momentum, rotation, s.elapsed});
     double rate = 0.0;
     if (drag.rate > 0.0) {
         // The rate of dv/dt = a - k |u| u, k half the drag rate, is k |u|; where the speed still builds up, sqrt(k a).
@@ -85,6 +85,17 @@ double rate_of(const RigidState& s, const RigidMass& mass, const ForceLaw& law, 
     return rate;
 }
 
+/// Thin plates bob, and light bodies are braked, within less than a step, which is then divided into parts.
+constexpr double most_water_parts = 256.0;
+
+int parts_in_water(const RigidState& state, const RigidMass& mass, const ForceField& forces, const Body& body,
+                   std::size_t index, double from, double to) {
+    const Vec3 velocity = mass.inverse_mass * state.momentum;
+    const Mat3 rotation = rotation_of(state.orientation);
+    const FlightPoint at{state.position, velocity, state.angular_momentum, rotation, 0.0};
+    return int(std::clamp(std::ceil(forces.parts_in_water(index, body, at, from, to)), 1.0, most_water_parts));
+}
+
 }  // namespace
 
 bool steps_whole_state(IntegratorKind kind) {
@@ -96,10 +107,14 @@ void advance_one_step(Body& body, IntegratorKind kind, const ForceField& forces,
     RigidState state = state_of(body);
     const RigidMass mass = mass_of(body);
     for_each_span(body, forces, index, from, to, [&](double start, double end, const auto& law) {
-        if (kind == IntegratorKind::splitting)
-            splitting_step(state, mass, ForceLaw(law), end - start);
-        else
-            runge_kutta_4_step(state, mass, ForceLaw(law), end - start);
+        state.elapsed = 0.0;
+        const int parts = forces.has_water() ? parts_in_water(state, mass, forces, body, index, start, end) : 1;
+        for (int k = 0; k < parts; ++k) {
+            if (kind == IntegratorKind::splitting)
+                splitting_step(state, mass, ForceLaw(law), (end - start) / parts);
+            else
+                runge_kutta_4_step(state, mass, ForceLaw(law), (end - start) / parts);
+        }
     });
     set_state(body, state);
 }
@@ -109,12 +124,15 @@ RigidState advance_exactly(const Body& body, const ForceField& forces, std::size
     const RigidMass mass = mass_of(body);
     const Drag drag{forces.drag_rate(body), forces.wind()};
     for_each_span(body, forces, index, from, to, [&](double start, double end, const auto& law) {
+        state.elapsed = 0.0;
         const double span = end - start;
         const bool turns = !forces.torque_free(index, 0.5 * (start + end));
         const FreeRotation rotation(mass.principal_inertia, mass.principal_axes, state.orientation,
                                     state.angular_momentum);
         if (forces.constant(index, start, end)) {
-            const Vec3 force = ForceLaw(law)(state.position, Vec3::Zero(), Mat3::Identity()).force;
+            const Vec3 still = Vec3::Zero();
+            const Mat3 upright = Mat3::Identity();
+            const Vec3 force = ForceLaw(law)({state.position, still, still, upright, 0.0}).force;
             state.position += span * mass.inverse_mass * (state.momentum + 0.5 * span * force);
             state.momentum += span * force;
         } else {
@@ -130,11 +148,19 @@ RigidState advance_exactly(const Body& body, const ForceField& forces, std::size
                                     "than {} steps: the forces on it are too large for its mass",
                                     safe_text(body.name), start, end, most_substeps));
                 }
+                const Vec3 velocity = mass.inverse_mass * state.momentum;
+                const Mat3 attitude = rotation_of(state.orientation);
                 const double rate =
                     rate_of(state, moved, ForceLaw(law), turns, drag, span) +
-                    forces.field_rate(body, state.position, mass.inverse_mass * state.momentum, 0.5 * (start + end));
+                    forces.field_rate(index, body,
+                                      {state.position, velocity, state.angular_momentum, attitude, state.elapsed},
+                                      0.5 * (start + end));
                 // Divides the rest into equal steps at the present rate; the next step decides anew.
-                const double rest = span - done, count = std::ceil(rest * rate / extrapolation_phase);
+                const double rest = span - done;
+                double count = std::ceil(rest * rate / extrapolation_phase);
+                if (forces.has_water() && step < int(most_water_parts))
+                    count =
+                        std::max(count, double(parts_in_water(state, moved, forces, body, index, start + done, end)));
                 extrapolation_step(state, moved, ForceLaw(law), count > 1.0 ? rest / count : rest);
                 if (!(count > 1.0)) break;
                 done += rest / count;

@@ -19,7 +19,7 @@ namespace {
 constexpr double pair_phase = 0.2;
 constexpr int most_pair_steps = 200000;
 
-constexpr Eigen::Index numbers = 13;  // of a state
+constexpr Eigen::Index numbers = 14;  // of a state
 
 }  // namespace
 
@@ -63,11 +63,8 @@ Eigen::VectorXd PairFlight::rates(const Eigen::VectorXd& y) {
     Eigen::VectorXd rate(y.size());
     for (std::size_t n = 0; n < flying_.size(); ++n) {
         const std::size_t k = flying_[n];
-        const auto law = [&](const Vec3& position, const Vec3& velocity, const Mat3& rotation) {
-            Wrench wrench = forces_->alone(index[k], (*bodies_)[index[k]], position, velocity, rotation, middle_);
-            wrench.force += pulls_[k].force;
-            wrench.torque += pulls_[k].torque;
-            return wrench;
+        const auto law = [&](const FlightPoint& at_point) {
+            return forces_->in_flight(index[k], (*bodies_)[index[k]], at_point, {middle_, span_start_}, pulls_[k]);
         };
         const Eigen::Index at = numbers * Eigen::Index(n);
         rate.segment<numbers>(at) = rate_of_change(StateVector(y.segment<numbers>(at)), masses_[k], ForceLaw(law));
@@ -106,13 +103,14 @@ void PairFlight::kick(double h, double time) {
     for (const double share : {0.5, 1.0}) {
         for (const std::size_t k : flying_) {
             const RigidState& s = states_[k];
-            Wrench wrench = forces_->alone(index[k], (*bodies_)[index[k]], s.position,
-                                           masses_[k].inverse_mass * s.momentum, rotation_of(s.orientation), middle_);
-            wrench.force += pulls_[k].force;
-            wrench.torque += pulls_[k].torque;
+            const Vec3 velocity = masses_[k].inverse_mass * s.momentum;
+            const Mat3 rotation = rotation_of(s.orientation);
+            const Wrench wrench = forces_->in_flight(index[k], (*bodies_)[index[k]],
+                                                     {s.position, velocity, s.angular_momentum, rotation, s.elapsed},
+                                                     {middle_, span_start_}, pulls_[k]);
             RigidState& next = states_[k];
             next.momentum = before[k].momentum + share * h * wrench.force;
-            if (share == 1.0) next.angular_momentum += h * wrench.torque;
+            next.angular_momentum = before[k].angular_momentum + share * h * wrench.torque;
         }
         if (share < 1.0) gather();
     }
@@ -131,7 +129,11 @@ double PairFlight::rate() const {
     double fastest = forces_->pairs().rate(present(), middle_);
     for (const std::size_t k : flying_) {
         const Body& body = (*bodies_)[index[k]];
-        double own = forces_->field_rate(body, points_[k].position, points_[k].velocity, middle_) +
+        const Mat3 attitude = rotation_of(states_[k].orientation);
+        double own = forces_->field_rate(index[k], body,
+                                         {points_[k].position, points_[k].velocity, states_[k].angular_momentum,
+                                          attitude, states_[k].elapsed},
+                                         middle_) +
                      forces_->drag_rate(body) * (points_[k].velocity - forces_->wind()).norm();
         const double most = 1.0 / masses_[k].principal_inertia.minCoeff();
         if (turns_) own += states_[k].angular_momentum.norm() * most;
@@ -188,6 +190,8 @@ void PairFlight::advance(const std::vector<Body>& bodies, std::span<const Member
         turns_ = false;
         for (const std::size_t k : flying_) end = std::min(end, forces.next_change(index[k], now));
         middle_ = 0.5 * (now + end);
+        span_start_ = now;
+        for (const std::size_t k : flying_) states_[k].elapsed = 0.0;
         for (const std::size_t k : flying_) turns_ = turns_ || !forces.torque_free(index[k], middle_);
         const Span span{now, end, middle_};
         if (exactly) {

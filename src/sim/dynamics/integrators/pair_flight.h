@@ -45,7 +45,7 @@ private:
     const std::vector<Body>* bodies_ = nullptr;
     const ForceField* forces_ = nullptr;
     std::span<const Member> members_;
-    double start_ = 0.0, middle_ = 0.0;  // s
+    double start_ = 0.0, middle_ = 0.0, span_start_ = 0.0;  // s
     std::vector<RigidState> states_;
     std::vector<RigidMass> masses_;
     std::vector<MassPoint> points_;

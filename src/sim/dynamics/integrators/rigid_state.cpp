@@ -38,25 +38,27 @@ Mat3 rotation_of(const Quat& q) {
 
 StateVector vector_of(const RigidState& s) {
     StateVector y;
-    y << s.position, s.orientation.coeffs(), s.momentum, s.angular_momentum;
+    y << s.position, s.orientation.coeffs(), s.momentum, s.angular_momentum, s.elapsed;
     return y;
 }
 
 RigidState state_of(const StateVector& y) {
-    return {y.head<3>(), Quat(y.segment<4>(3).normalized()), y.segment<3>(7), y.tail<3>()};
+    return {y.head<3>(), Quat(y.segment<4>(3).normalized()), y.segment<3>(7), y.segment<3>(10), y[13]};
 }
 
 StateVector rate_of_change(const StateVector& y, const RigidMass& mass, const ForceLaw& forces) {
     const Quat q(y.segment<4>(3));
     const Mat3 rotation = rotation_of(q);
     const Vec3 velocity = mass.inverse_mass * y.segment<3>(7);
-    const Vec3 omega = rotation * (mass.inverse_inertia * (rotation.transpose() * y.tail<3>()));
-    const Wrench wrench = forces(y.head<3>(), velocity, rotation);
+    const Vec3 position = y.head<3>(), angular_momentum = y.segment<3>(10);
+    const Vec3 omega = rotation * (mass.inverse_inertia * (rotation.transpose() * angular_momentum));
+    const Wrench wrench = forces({position, velocity, angular_momentum, rotation, y[13]});
     StateVector rate;
     rate.head<3>() = velocity;
     rate.segment<4>(3) = 0.5 * (Quat(0.0, omega.x(), omega.y(), omega.z()) * q).coeffs();
     rate.segment<3>(7) = wrench.force;
-    rate.tail<3>() = wrench.torque;
+    rate.segment<3>(10) = wrench.torque;
+    rate[13] = 1.0;
     return rate;
 }
 

@@ -8,8 +8,12 @@ namespace {
 // P and L over h with x and q held, by the midpoint rule: forces that depend on the velocity keep the second order.
 void kick(RigidState& s, const RigidMass& mass, const ForceLaw& forces, double h) {
     const Mat3 rotation = rotation_of(s.orientation);
-    const Vec3 half_way = s.momentum + 0.5 * h * forces(s.position, mass.inverse_mass * s.momentum, rotation).force;
-    const Wrench wrench = forces(s.position, mass.inverse_mass * half_way, rotation);
+    const auto at = [&](const Vec3& momentum, const Vec3& angular_momentum) {
+        const Vec3 velocity = mass.inverse_mass * momentum;
+        return forces({s.position, velocity, angular_momentum, rotation, s.elapsed});
+    };
+    const Wrench first = at(s.momentum, s.angular_momentum);
+    const Wrench wrench = at(s.momentum + 0.5 * h * first.force, s.angular_momentum + 0.5 * h * first.torque);
     s.momentum += h * wrench.force;
     s.angular_momentum += h * wrench.torque;
 }
@@ -36,6 +40,7 @@ void turn(Quat& q, Vec3& m, const Vec3& inertia, double h) {
 
 void free_drift(RigidState& s, const RigidMass& mass, double h) {
     s.position += h * mass.inverse_mass * s.momentum;
+    s.elapsed += h;
     if (s.angular_momentum.isZero(0.0)) return;
     Quat q = s.orientation * mass.principal_axes;
     Vec3 m = q.conjugate() * s.angular_momentum;  // in principal axes
