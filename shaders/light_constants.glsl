@@ -21,6 +21,10 @@ const float corner_darkness = 0.5;                        // sky light lost wher
 const float occlusion_of_sun = 0.25;                      // share of that loss that applies to sunlight
 
 const float brightest_highlight = 16.0;                   // of the sun, before its light and the surface's color
+const float water_reflectance = 0.02;                     // at normal incidence
+const float water_clear_way = 3.0;                        // m of water after which white has the color of the water
+const float water_glint = 0.03;                           // slope of ripples that no wave has, which widen the sun's image
+const float brightest_glint = 300.0;                      // as brightest_highlight, of which water mirrors little
 const float bevel_blur = 0.25;                            // of the spread that linear light has on bevels: light is averaged
                                                           // as encoded values, in which highlights weigh less
 const float flat_box = 4.0;                               // pixels: thinner boxes have no rounded edges,

@@ -67,6 +67,7 @@ int FrameSetup::lens_samples(const Snapshot& whole) const {
 bool FrameSetup::shows(const Snapshot& whole) {
     const CameraDescription now = mirrored(animation_.at(whole), mirror_);
     if (!finished_ || !same_place(now, placed_) || now.dof != placed_.dof) return false;
+    if (!scene_->surface.still() && waves_time_ != whole.time) return false;
     return std::ranges::equal(poses_, parts_.snapshot(whole).bodies, [](const Pose& pose, const BodyState& state) {
         return pose == Pose{state.origin, state.orientation, state.absent};
     });
@@ -96,9 +97,11 @@ FrameContext FrameSetup::prepare(const Snapshot& whole, bool one_sample, bool fu
     frame.anew = !std::exchange(finished_, false) || !same_bodies(snapshot);
     frame.camera_moved = move_camera(whole);
     frame.moved = find_moved(snapshot, frame.anew);
-    frame.unchanged = !full_redraw && !frame.anew && !frame.camera_moved &&
+    const bool waves = !scene_->surface.still() && std::exchange(waves_time_, snapshot.time) != snapshot.time;
+    frame.unchanged = !full_redraw && !frame.anew && !frame.camera_moved && !waves &&
                       std::find(frame.moved.begin(), frame.moved.end(), char(1)) == frame.moved.end();
     if (frame.unchanged) return frame;
+    if (scene_->water) frame.camera_moved = true;  // the surface is drawn over the whole frame
     frame.drawables = make_drawables(*scene_, snapshot, camera_);
     frame.near_distance = near_distance_for(*scene_, snapshot, camera_);
     frame.cascades = cascades_.fit(*scene_, snapshot, camera_, animation_.carried(whole));

@@ -86,8 +86,9 @@ private:
     Eigen::Vector2d lens_point_ = Eigen::Vector2d::Zero(), seen_through_ = Eigen::Vector2d::Zero();
     CascadeFitter cascades_;
     std::optional<LampMapFitter> lamp_map_;
-    std::vector<Pose> poses_;  // of the previous frame
-    bool finished_ = false;    // the previous frame is drawn
+    std::vector<Pose> poses_;   // of the previous frame
+    double waves_time_ = -1.0;  // s, of the previous frame
+    bool finished_ = false;     // the previous frame is drawn
 };
 
 }  // namespace tumble

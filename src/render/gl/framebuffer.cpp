@@ -109,6 +109,7 @@ void Framebuffer::begin_background() { begin_all(background_, 1.0); }
 void Framebuffer::begin_whole() {
     begin_all(drawn_, 1.0);
     whole_open_ = true;
+    drawn_over_ = false;
 }
 
 void Framebuffer::begin(const std::vector<Rectangle>& rectangles, const std::vector<Rectangle>& previous_damage) {
@@ -118,8 +119,50 @@ void Framebuffer::begin(const std::vector<Rectangle>& rectangles, const std::vec
     whole_open_ = false;
 }
 
+Framebuffer::Over Framebuffer::make_over() const {
+    Over over{GlObject(*gl_, GlKind::framebuffer), GlObject(*gl_, GlKind::texture), GlObject(*gl_, GlKind::texture),
+              GlObject(*gl_, GlKind::framebuffer), GlObject(*gl_, GlKind::renderbuffer)};
+    const auto make_texture = [&](const GlObject& texture, GLint stored, GLenum format, GLenum type) {
+        gl_->BindTexture(GL_TEXTURE_2D, texture.name());
+        gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+        gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+        gl_->TexImage2D(GL_TEXTURE_2D, 0, stored, width_, height_, 0, format, type, nullptr);
+    };
+    make_texture(over.seen_color, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE);
+    make_texture(over.seen_depth, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT);
+    gl_->BindFramebuffer(GL_FRAMEBUFFER, over.seen.name());
+    gl_->FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, over.seen_color.name(), 0);
+    gl_->FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, over.seen_depth.name(), 0);
+    gl_->BindFramebuffer(GL_FRAMEBUFFER, over.target.name());
+    const Target& picture = resolved_ ? *resolved_ : drawn_;
+    gl_->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, picture.color.name());
+    gl_->BindRenderbuffer(GL_RENDERBUFFER, over.depth.name());
+    gl_->RenderbufferStorageMultisample(GL_RENDERBUFFER, 0, GL_DEPTH_COMPONENT32F, width_, height_);
+    gl_->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, over.depth.name());
+    const GLenum status = gl_->CheckFramebufferStatus(GL_FRAMEBUFFER);
+    if (status != GL_FRAMEBUFFER_COMPLETE)
+        throw RunError(fmt::format("the OpenGL driver refuses a framebuffer for water (0x{:x})", status));
+    return over;
+}
+
+void Framebuffer::begin_over() {
+    const std::vector<Rectangle> whole{{0, 0, width_, height_}};
+    resolve(whole);
+    if (!over_) over_.emplace(make_over());
+    gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, drawn_.framebuffer.name());
+    gl_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, over_->seen.name());
+    for (const GLbitfield what : {GL_COLOR_BUFFER_BIT, GL_DEPTH_BUFFER_BIT})
+        gl_->BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, what, GL_NEAREST);
+    gl_->BindFramebuffer(GL_FRAMEBUFFER, over_->target.name());
+    gl_->Viewport(0, 0, width_, height_);
+    gl_->ClearDepth(1.0);
+    gl_->Clear(GL_DEPTH_BUFFER_BIT);
+    drawn_over_ = true;
+}
+
 void Framebuffer::resolve(const std::vector<Rectangle>& rectangles) const {
-    if (resolved_) copy(drawn_, *resolved_, rectangles, GL_COLOR_BUFFER_BIT);
+    if (resolved_ && !drawn_over_) copy(drawn_, *resolved_, rectangles, GL_COLOR_BUFFER_BIT);
 }
 
 void Framebuffer::read(const std::vector<Rectangle>& rectangles, Image& image) const {

@@ -36,6 +36,12 @@ public:
     /// previous frame and cannot in this one.
     void begin(const std::vector<Rectangle>& rectangles, const std::vector<Rectangle>& previous_damage);
 
+    /// Copies the color, of which it averages the samples, and the depth to textures, and makes the color, with one
+    /// sample and depths of its own, the draw target. Precondition: begin_whole(). After it, resolve() does nothing.
+    void begin_over();
+    GLuint seen_color() const { return over_->seen_color.name(); }
+    GLuint seen_depth() const { return over_->seen_depth.name(); }
+
     /// Averages the samples in the rectangles.
     void resolve(const std::vector<Rectangle>& rectangles) const;
 
@@ -50,19 +56,26 @@ private:
     struct Target {
         GlObject framebuffer, color, depth;
     };
+    struct Over {
+        GlObject seen, seen_color, seen_depth;  // copies of the frame
+        GlObject target, depth;                 // to draw on, with the color of the frame
+    };
     Target make_target(int height, int samples, bool with_color, bool with_depth) const;
     void bind(const Target& target) const;
     void begin_all(const Target& target, double depth) const;
     void copy(const Target& from, const Target& to, const std::vector<Rectangle>& rectangles, GLbitfield what) const;
+    Over make_over() const;
     void close(const std::vector<Rectangle>& rectangles) const;
 
     const GlFunctions* gl_;
     int width_, height_, samples_;
     Target background_, drawn_;
     Target closed_;  // a strip of nearest depths, copied over pixels that are closed: a third of the cost of clearing
+    bool drawn_over_ = false;               // after begin_over()
     bool whole_open_ = false;               // true if the whole frame can be drawn to
     std::optional<Target> resolved_;        // only with several samples
     std::optional<Target> resolved_depth_;  // the same; made on first use
+    std::optional<Over> over_;              // made on first use
 };
 
 }  // namespace tumble

@@ -29,6 +29,7 @@ FramePasses::FramePasses(GlDevice& device, const RenderScene& scene, const Shado
       plain_background_(options.plain_background),
       schedule_(options.schedule) {
     if (second_shadow(scene.lamps)) lamp_shadow_map_.emplace(device, options.shaders);
+    if (scene.water && !plain_background_) water_.emplace(device, options.shaders, scene);
     gl_->FrontFace(GL_CW);  // the frame is drawn upside down (see Camera)
     gl_->Enable(GL_DEPTH_TEST);
     gl_->Enable(GL_DEPTH_CLAMP);  // no clipping at the near plane and at the sun's nearest depth
@@ -141,6 +142,9 @@ void FramePasses::draw(const FrameContext& frame, const Damage& damage, const Dr
 
     bodies_.draw_over(meshes_, list.translucent);
     timer.ends(Pass::bodies);
+
+    if (water_) water_->draw(frame, framebuffer_);
+    timer.ends(Pass::planes);
 }
 
 // Camera::clip_from_relative(): the depth in the buffer is 1 - near / distance.

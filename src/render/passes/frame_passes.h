@@ -10,6 +10,7 @@
 #include "render/passes/body_pass.h"
 #include "render/passes/pass_timer.h"
 #include "render/passes/plane_pass.h"
+#include "render/passes/water_pass.h"
 #include "render/shadow/lamp_shadow_map.h"
 #include "render/shadow/shadow_map.h"
 
@@ -72,6 +73,7 @@ private:
     std::optional<GlObject> reflection_;
     BodyPass bodies_;
     PlanePass planes_;
+    std::optional<WaterPass> water_;
     bool widen_rods_;
     std::optional<std::array<float, 4>> plain_background_;
     bool background_kept_ = false;     // the stored background is that of this camera

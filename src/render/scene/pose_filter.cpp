@@ -9,7 +9,8 @@
 
 namespace tumble {
 
-PoseFilter::PoseFilter(const SceneDescription& scene) : followed_(followed_bodies(scene.camera)) {
+PoseFilter::PoseFilter(const SceneDescription& scene)
+    : followed_(followed_bodies(scene.camera)), waves_(scene.water && !scene.water->waves.empty()) {
     const auto add_view = [&](const CameraDescription& camera) {
         views_.push_back({CameraAnimation(camera), camera, Camera(camera, scene.output.width, scene.output.height)});
     };
@@ -85,7 +86,7 @@ bool PoseFilter::follow(Snapshot& snapshot) {
     }
     for (std::size_t i = 0; i < drawn_.size(); ++i)
         if (settle(i, snapshot.bodies[i])) moved = true;
-    return moved;
+    return moved || waves_;
 }
 
 }  // namespace tumble

@@ -30,14 +30,14 @@ public:
 
     /// Replaces the poses by those to draw (origin, orientation and center of mass; the rest is unchanged). Returns
     /// false if they equal those of the previous call, so that the frame is the same to the last byte; returns true on
-    /// the first call and when the camera has moved.
+    /// the first call, when the camera has moved, and in scenes with waves.
     bool follow(Snapshot& snapshot);
 
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [views, followed, radii, drawn, first] = self;
-        archive.rebuilt(followed, radii);
+        auto& [views, followed, waves, radii, drawn, first] = self;
+        archive.rebuilt(followed, waves, radii);
         for (auto& [path, camera, view] : views) {
             archive.keep(camera.eye, camera.target, camera.up, camera.vertical_fov);
             if constexpr (!std::is_const_v<Self>) view = view.from(camera);
@@ -73,6 +73,7 @@ private:
     };
     std::vector<View> views_;  // of the picture, and of its insets
     std::vector<std::size_t> followed_;
+    bool waves_;                 // the picture changes with the time
     std::vector<double> radii_;  // m, of each body around its origin; 0: not drawn; infinite: a plane
     std::vector<Pose> drawn_;    // empty before the first call
     bool first_ = true;          // no call yet; a scene may have no bodies

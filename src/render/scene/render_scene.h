@@ -16,6 +16,8 @@ struct RenderScene {
     LightDescription light;
     std::vector<LampDescription> lamps;  // empty: the light alone
     std::optional<EnvironmentDescription> environment;
+    std::optional<WaterDescription> water;
+    WaterSurface surface;   // of the water
     double exposure = 0.0;  // stops
     ToneCurve tone = ToneCurve::filmic;
     int shadow_alpha = 0;                           // of ground shadows, see TRANSPARENT of shaders/plane.frag
