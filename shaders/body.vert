@@ -133,6 +133,9 @@ void main() {
     vec3 local = on_cube * size;
     vec3 position = placed(local);
     gl_Position = clip_from_relative * vec4(position, 1.0);
+#ifdef CUT
+    gl_ClipDistance[0] = position.y - atlas.z + 2.0 * pixel_size * gl_Position.w;   // no gap at the water line
+#endif
 
     float squared = dot(position, position);
     vec3 direction = position * inversesqrt(max(squared, 1e-30));

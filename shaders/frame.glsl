@@ -16,5 +16,5 @@ layout(std140) uniform Frame {
     float pixel_size;            // at distance 1
     float widest_rod;            // half size at distance 1
     float thinnest_rod;          // the same; both are 0 if no rod is widened
-    vec4 atlas;                  // 1 / size of the AO atlas, in texels
+    vec4 atlas;                  // 1 / size of the AO atlas, in texels; z: height below which CUT bodies are, m
 };

@@ -23,6 +23,7 @@ const float occlusion_of_sun = 0.25;                      // share of that loss 
 const float brightest_highlight = 16.0;                   // of the sun, before its light and the surface's color
 const float water_reflectance = 0.02;                     // at normal incidence
 const float water_clear_way = 3.0;                        // m of water after which white has the color of the water
+const float reflection_way = 0.5;                         // share of the deflection by a wave that a near body has
 const float water_glint = 0.03;                           // slope of ripples that no wave has, which widen the sun's image
 const float brightest_glint = 300.0;                      // as brightest_highlight, of which water mirrors little
 const float bevel_blur = 0.25;                            // of the spread that linear light has on bevels: light is averaged

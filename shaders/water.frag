@@ -20,6 +20,10 @@ flat in vec3 v_sun_share;
 #ifdef BACKGROUND
 flat in vec4 v_low, v_high;
 #endif
+#ifdef REFLECTIVE
+uniform sampler2D reflection_image;     // bodies, straight alpha; from right to left
+flat in vec3 v_clip_x, v_clip_y, v_clip_w;
+#endif
 in vec3 v_at;
 
 layout(location = 0) out vec4 pixel;
@@ -72,6 +76,7 @@ void main() {
     float axis = 1.0 / gl_FragCoord.w, own = 1.0 - v_water.w / axis;
     vec2 change = vec2(change_of_depth(at, ivec2(1, 0), depth) - dFdx(own), change_of_depth(at, ivec2(0, 1), depth) - dFdy(own));
     float covered = clamp(0.5 + (depth - own) / max(abs(change.x) + abs(change.y), 1e-12), 0.0, 1.0);
+    if (covered == 0.0) discard;
 
     float far = length(v_at);
     vec3 view = v_at / far, normal = vec3(0.0, 1.0, 0.0);
@@ -95,6 +100,14 @@ void main() {
     vec3 light = light_mirrored(mirrored, 0.0);
 #else
     vec3 light = sky_along(mirrored);
+#endif
+#ifdef REFLECTIVE
+    // Still water shows them at the pixel itself. A wave moves them as if they were rather far away.
+    vec3 shown_ray = mix(view, vec3(mirrored.x, -mirrored.y, mirrored.z), reflection_way);
+    vec2 shown_at = vec2(dot(v_clip_x, shown_ray), dot(v_clip_y, shown_ray)) / max(dot(v_clip_w, shown_ray), 1e-3);
+    ivec2 size = textureSize(reflection_image, 0), from = ivec2(floor((0.5 + 0.5 * shown_at) * vec2(size)));
+    vec4 body = texelFetch(reflection_image, ivec2(size.x - 1 - clamp(from.x, 0, size.x - 1), clamp(from.y, 0, size.y - 1)), 0);
+    light = mix(light, light_of_shown(body.rgb), body.a);
 #endif
     light = mix(through_water(below, max(behind - axis, 0.0) * far / axis), light, mirrors);
 

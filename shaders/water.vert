@@ -29,6 +29,9 @@ flat out vec3 v_sun_share;
 #ifdef BACKGROUND
 flat out vec4 v_low, v_high;            // see background()
 #endif
+#ifdef REFLECTIVE
+flat out vec3 v_clip_x, v_clip_y, v_clip_w;     // direction -> clip space
+#endif
 out vec3 v_at;                          // m, from the eye
 
 void main() {
@@ -56,6 +59,12 @@ void main() {
     v_water = vec4(water_color.rgb * (light + sun * max(to_light.y, 0.0)), water_color.w);
     v_absorbed = vec4(-log(max(water_color.rgb, 0.004)) / water_clear_way, water_place.x);
     v_to_light = vec4(to_light.xyz, fog_density);
+#ifdef REFLECTIVE
+    mat4 rows = transpose(clip_from_relative);
+    v_clip_x = rows[0].xyz;
+    v_clip_y = rows[1].xyz;
+    v_clip_w = rows[3].xyz;
+#endif
 #ifdef WAVES
     v_phases = wave_phases;
 #endif

@@ -63,21 +63,28 @@ RenderScene drawn_scene(const SceneDescription& description, const RenderSwitche
     RenderScene scene = make_render_scene(description);
     if (switches.transparent && scene.environment && scene.environment->ground_shadow)
         scene.shadow_alpha = is_analytic(description, switches) ? 1 : 2;
+    if (switches.mirror && switches.above_mirror) scene.cut = switches.mirror->offset;
     return scene;
 }
 
-/// Draws the bodies that the scene's mirror shows, for a renderer of the scene; null without one.
+PlaneShape mirror_plane(const BodyDescription& body) {
+    BodyState state;
+    state.origin = body.position;
+    state.orientation = body.rotation;
+    RenderBody proxy;
+    proxy.plane = std::get<PlaneShape>(body.shape);
+    return plane_in_world(proxy, state);
+}
+
+/// Draws the bodies that the scene's mirror, a plane or still water, shows, for a renderer of the scene; null without
+/// one.
 std::unique_ptr<Renderer> mirror_renderer(const SceneDescription& scene, RenderSwitches switches, GlDevice& device) {
     const auto mirror = mirror_of(scene);
-    if (!mirror || switches.transparent || switches.plain_background) return nullptr;
+    if ((!mirror && !scene.water) || switches.transparent || switches.plain_background) return nullptr;
     SceneDescription bodies = scene;
-    const BodyDescription& plane = scene.bodies[*mirror];
-    BodyState state;
-    state.origin = plane.position;
-    state.orientation = plane.rotation;
-    RenderBody proxy;
-    proxy.plane = std::get<PlaneShape>(plane.shape);
-    switches.mirror = plane_in_world(proxy, state);
+    bodies.water.reset();
+    switches.mirror = mirror ? mirror_plane(scene.bodies[*mirror]) : PlaneShape{Vec3::UnitY(), scene.water->level};
+    switches.above_mirror = !mirror;
     switches.transparent = true;
     switches.shift_x = -switches.shift_x;
     switches.keep_depths = false;

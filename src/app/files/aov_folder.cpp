@@ -39,7 +39,7 @@ std::unique_ptr<TemporaryFile> AovFolder::write(std::int64_t frame, std::span<co
     return part;
 }
 
-/// One row per number: 0 is the background; bodies and cords by their index in the scene.
+/// One row per number: 0 is the background; bodies and cords by their index in the scene; then the water.
 void AovFolder::write_table() const {
     TableWriter table(segmentation_table_path(folder_), "id,kind,index,name");
     table.integer(0).text("background").text("").text("").end_row();
@@ -47,6 +47,7 @@ void AovFolder::write_table() const {
         table.integer(body_id(i)).text("body").integer(std::int64_t(i)).text(scene_.bodies[i].name).end_row();
     for (std::size_t i = 0; i < scene_.cords.size(); ++i)
         table.integer(cord_id(scene_, i)).text("cord").integer(std::int64_t(i)).text("").end_row();
+    if (shows_water(scene_)) table.integer(water_id(scene_)).text("water").integer(0).text("").end_row();
     table.finish();
 }
 

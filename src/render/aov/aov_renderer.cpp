@@ -2,6 +2,7 @@
 
 #include "core/check.h"
 #include "render/aov/surface_motion.h"
+#include "render/aov/water_depths.h"
 #include "render/shapes/drawn_shape.h"
 #include "scene/description/looks.h"
 
@@ -60,6 +61,7 @@ std::vector<std::int32_t> ids_of(const SceneDescription& scene, const std::vecto
     std::vector<std::int32_t> ids;
     for (const ShapeInstance& part : parts) ids.push_back(std::int32_t(body_id(part.body)));
     for (std::size_t i = 0; i < scene.cords.size(); ++i) ids.push_back(std::int32_t(cord_id(scene, i)));
+    ids.push_back(std::int32_t(water_id(scene)));
     return ids;
 }
 
@@ -74,6 +76,7 @@ void fill_albedo(const VisibilityBuffer& map, const SceneDescription& scene, con
         images.push_back(look.texture ? texture_material(part.shape, look) : MeshMaterial());
     }
     for (const CordDescription& cord : scene.cords) colors.push_back(cord.color);
+    if (scene.water) colors.push_back(scene.water->color);
     values.resize(3 * map.surface.size());
     for_each_run(map, [&](const PixelRun& run) {
         std::uint8_t* to = values.data() + 3 * run.pixel;
@@ -112,8 +115,16 @@ void fill_albedo(const VisibilityBuffer& map, const SceneDescription& scene, con
     });
 }
 
+// Toward the side of the eye.
+Vec3 water_normal(const WaterSurface& water, double time, const PinholeCamera& camera, const Vec3& point) {
+    const Vec3 ray = camera.axes * point, at = camera.eye + ray;
+    const Vec3 normal = water.normal(at.x(), at.z(), time);
+    return normal.dot(ray) > 0.0 ? Vec3(-normal) : normal;
+}
+
 void fill_normal(const VisibilityBuffer& map, const std::vector<ShapeInstance>& parts, const ScenePlaces& places,
-                 const Snapshot& snapshot, const PinholeCamera& camera, std::vector<float>& values) {
+                 const Snapshot& snapshot, const PinholeCamera& camera, const WaterSurface& water,
+                 std::vector<float>& values) {
     std::vector<Mat3> rotations;           // rotation of each part to the world
     std::vector<const float*> everywhere;  // of planes: their constant normal
     std::vector<std::array<float, 3>> planes(parts.size());
@@ -128,6 +139,8 @@ void fill_normal(const VisibilityBuffer& map, const std::vector<ShapeInstance>& 
     values.resize(3 * map.surface.size());
     const auto normal_at = [&](std::uint32_t surface, std::size_t pixel, const Vec3& ray) -> Vec3 {
         const double depth = map.depth[pixel];
+        if (surface >= parts.size() + places.cords.size())
+            return water_normal(water, snapshot.time, camera, depth * ray);
         if (surface >= parts.size())
             return camera.axes * cord_normal(places.cords[surface - parts.size()], depth * ray);
         const auto normal_of = [&](const auto& shape) {
@@ -184,7 +197,9 @@ AovRenderer::AovRenderer(const SceneDescription& scene, const AovSet& aovs)
       path_(scene.camera),
       frame_{PinholeCamera(Camera(scene.camera, scene.output.width, scene.output.height)), {}, {}, {}, {}, {}},
       parts_(surface_parts(scene)),
-      finder_(parts_, scene.cords) {}
+      finder_(parts_, scene.cords) {
+    if (scene.water) water_ = WaterSurface(*scene.water, -scene.simulation.gravity.y());
+}
 
 PinholeCamera AovRenderer::camera_at(const Snapshot& snapshot) const {
     return PinholeCamera(Camera(path_.at(snapshot), scene_.output.width, scene_.output.height));
@@ -194,12 +209,14 @@ const AovFrame& AovRenderer::make(const AovPoses& poses) {
     TUMBLE_CHECK_EQ(poses.now.bodies.size(), scene_.bodies.size());
     const PinholeCamera camera = camera_at(poses.now);
     const ScenePlaces places = make_places(parts_, scene_.cords, poses.now, camera);
-    const VisibilityBuffer& map = finder_.find(places, camera);
+    VisibilityBuffer& map = finder_.find(places, camera);
+    if (shows_water(scene_))
+        add_water(water_, poses.now.time, camera, std::uint32_t(parts_.size() + scene_.cords.size()), map);
 
     AovFrame& frame = frame_;
     frame.camera = camera;
     if (aovs_.has(Aov::depth)) fill_depth(map, frame.depth);
-    if (aovs_.has(Aov::normal)) fill_normal(map, parts_, places, poses.now, camera, frame.normal);
+    if (aovs_.has(Aov::normal)) fill_normal(map, parts_, places, poses.now, camera, water_, frame.normal);
     if (aovs_.has(Aov::segmentation)) fill_by_surface(map, ids_of(scene_, parts_), std::int32_t(0), frame.segmentation);
     if (aovs_.has(Aov::albedo)) fill_albedo(map, scene_, parts_, places, camera, frame.albedo);
     if (aovs_.has(Aov::motion)) {
@@ -215,7 +232,8 @@ bool AovChanges::follow(const AovPoses& poses) {
     const auto same = [&](const Snapshot& a, const Snapshot& b) {
         return same_poses(a, b) && same_place(path_.at(a), path_.at(b));
     };
-    const bool unmoved = before_ && same(before_->now, poses.now) && (!poses.next || same(*before_->next, *poses.next));
+    const bool unmoved =
+        before_ && !waves_ && same(before_->now, poses.now) && (!poses.next || same(*before_->next, *poses.next));
     if (!unmoved) before_ = poses;
     return !unmoved;
 }

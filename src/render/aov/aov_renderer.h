@@ -50,19 +50,22 @@ private:
     AovFrame frame_;
     std::vector<ShapeInstance> parts_;
     VisibilityBufferRenderer finder_;
+    WaterSurface water_;
 };
 
 /// Detects frames whose values equal the values of the frame before, to the bit.
 class AovChanges {
 public:
-    explicit AovChanges(const SceneDescription& scene) : path_(scene.camera) {}
+    explicit AovChanges(const SceneDescription& scene)
+        : path_(scene.camera), waves_(shows_water(scene) && !scene.water->waves.empty()) {}
 
     /// Call it for every frame, in order. Returns false if since the previous call neither a body nor the camera has
-    /// moved, in this frame or to the next.
+    /// moved, in this frame or to the next. Waves always move.
     bool follow(const AovPoses& poses);
 
 private:
     CameraAnimation path_;
+    bool waves_;
     std::optional<AovPoses> before_;
 };
 

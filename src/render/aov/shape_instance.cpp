@@ -36,6 +36,8 @@ std::uint32_t body_id(std::size_t body) { return std::uint32_t(1 + body); }
 
 std::uint32_t cord_id(const SceneDescription& scene, std::size_t cord) { return body_id(scene.bodies.size() + cord); }
 
+std::uint32_t water_id(const SceneDescription& scene) { return cord_id(scene, scene.cords.size()); }
+
 PartPlace place_of(const ShapeInstance& part, const Snapshot& snapshot, const PinholeCamera& camera) {
     const BodyState& body = snapshot.bodies.at(part.body);
     const Mat3 turn = camera.axes.transpose() * body.orientation.toRotationMatrix();

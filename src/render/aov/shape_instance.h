@@ -25,9 +25,12 @@ struct ShapeInstance {
 /// In scene order. The scene must outlive them, because it owns the meshes.
 std::vector<ShapeInstance> surface_parts(const SceneDescription& scene);
 
-/// Segmentation value of a body (the same for all its parts) or a cord. 0 is the background.
+/// Segmentation value of a body (the same for all its parts), a cord or the water. 0 is the background.
 std::uint32_t body_id(std::size_t body);
 std::uint32_t cord_id(const SceneDescription& scene, std::size_t cord);
+std::uint32_t water_id(const SceneDescription& scene);
+/// True if the AOVs have the surface of the water.
+inline bool shows_water(const SceneDescription& scene) { return scene.water && scene.water->visible_in_aov; }
 
 PartPlace place_of(const ShapeInstance& part, const Snapshot& snapshot, const PinholeCamera& camera);
 

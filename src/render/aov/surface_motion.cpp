@@ -17,6 +17,8 @@ FrameMotion between(const CordPlace& now, const CordPlace& next) {
     return {turn, next.from - turn * now.from};
 }
 
+PartPlace world_in(const PinholeCamera& camera) { return {camera.axes.transpose(), camera.from_world(Vec3::Zero())}; }
+
 }  // namespace
 
 SurfaceMotion::SurfaceMotion(const ScenePlaces& now, const PinholeCamera& camera, const ScenePlaces& next,
@@ -35,12 +37,14 @@ SurfaceMotion::SurfaceMotion(const ScenePlaces& now, const PinholeCamera& camera
     };
     add(now.parts, next.parts);
     add(now.cords, next.cords);
+    rests_.push_back(camera_rests_ ? 1 : 0);
+    surfaces_.push_back(between(world_in(camera), world_in(next_camera)));
 }
 
 Eigen::Vector2d SurfaceMotion::of_surface(std::uint32_t surface, const Vec3& point, int column, int row) const {
     const FrameMotion& motion = surfaces_[surface];
     Vec3 next = motion.turn * point + motion.shift;
-    if (surface >= parts_) {
+    if (surface >= parts_ && surface < parts_ + cords_now_.size()) {
         // A cord that gets longer displaces each point by its share of the length.
         const CordPlace &a = cords_now_[surface - parts_], &b = cords_next_[surface - parts_];
         const Vec3 along = a.to - a.from;

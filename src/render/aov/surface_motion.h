@@ -33,7 +33,7 @@ public:
 private:
     Eigen::Vector2d to(const Vec3& next_point, int column, int row) const;
 
-    std::vector<FrameMotion> surfaces_;  // parts, then cords
+    std::vector<FrameMotion> surfaces_;  // parts, then cords, then the water, which stands still
     std::vector<char> rests_;            // of each surface
     std::vector<CordPlace> cords_now_, cords_next_;
     std::size_t parts_;

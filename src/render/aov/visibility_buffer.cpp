@@ -30,7 +30,7 @@ VisibilityBufferRenderer::VisibilityBufferRenderer(std::span<const ShapeInstance
                                                    std::span<const CordDescription> cords)
     : parts_(parts), cords_(cords) {}
 
-const VisibilityBuffer& VisibilityBufferRenderer::find(const ScenePlaces& places, const PinholeCamera& camera) {
+VisibilityBuffer& VisibilityBufferRenderer::find(const ScenePlaces& places, const PinholeCamera& camera) {
     map_.clear(camera.width, camera.height);
     ray_x_.clear();
     for (int column = 0; column < camera.width; ++column) ray_x_.push_back(camera.ray_x(column));

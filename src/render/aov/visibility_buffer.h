@@ -20,7 +20,7 @@ struct VisibilityBuffer {
 
     int width = 0, height = 0;
     std::vector<double> depth;            // m along the camera axis; infinity: background
-    std::vector<std::uint32_t> surface;   // index: the parts, then the cords; or `nothing`
+    std::vector<std::uint32_t> surface;   // index: the parts, then the cords, then the water; or `nothing`
     std::vector<std::uint32_t> triangle;  // index in a mesh; meaningless for other shapes
 
     std::size_t at(int column, int row) const { return std::size_t(row) * std::size_t(width) + std::size_t(column); }
@@ -41,7 +41,7 @@ public:
     VisibilityBufferRenderer(std::span<const ShapeInstance> parts, std::span<const CordDescription> cords);
 
     /// If two surfaces have the same depth, the first in order is taken.
-    const VisibilityBuffer& find(const ScenePlaces& places, const PinholeCamera& camera);
+    VisibilityBuffer& find(const ScenePlaces& places, const PinholeCamera& camera);
 
 private:
     void add_rows(std::span<const Vec3> hull, const Depths& depths) override;

@@ -130,6 +130,7 @@ void FramePasses::draw(const FrameContext& frame, const Damage& damage, const Dr
     timer.ends(Pass::background);
 
     bind_textures();
+    if (scene_->cut) gl_->Enable(GL_CLIP_DISTANCE0);
     bodies_.draw(meshes_, list.visible);
     timer.ends(Pass::bodies);
 
@@ -141,6 +142,7 @@ void FramePasses::draw(const FrameContext& frame, const Damage& damage, const Dr
     timer.ends(Pass::background);
 
     bodies_.draw_over(meshes_, list.translucent);
+    if (scene_->cut) gl_->Disable(GL_CLIP_DISTANCE0);
     timer.ends(Pass::bodies);
 
     if (water_) water_->draw(frame, framebuffer_);

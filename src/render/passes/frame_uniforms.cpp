@@ -29,7 +29,8 @@ FrameUniforms make_frame_uniforms(const FrameContext& frame, int atlas_height, b
         u.widest_rod = float(widest_rod_pixels * view.pixel_size());
         u.thinnest_rod = float(thinnest_rod_pixels * view.pixel_size());
     }
-    u.atlas = glm::vec4(1.0f / float(OcclusionAtlas::width), 1.0f / float(atlas_height), 0.0f, 0.0f);
+    u.atlas = glm::vec4(1.0f / float(OcclusionAtlas::width), 1.0f / float(atlas_height),
+                        frame.scene.cut ? float(*frame.scene.cut - view.eye().y()) : 0.0f, 0.0f);
     return u;
 }
 

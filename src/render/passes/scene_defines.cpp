@@ -50,6 +50,7 @@ std::vector<std::string> scene_defines(const RenderScene& scene) {
         if (environment->ground_shadow) all.emplace_back("GROUND_SHADOW");
     }
     if (scene.shadow_alpha != 0) all.push_back(fmt::format("TRANSPARENT {}", scene.shadow_alpha));
+    if (scene.cut) all.emplace_back("CUT");
     if (scene.exposure != 0.0) all.push_back(fmt::format("EXPOSURE {:.9e}", std::exp2(scene.exposure)));
     if (scene.tone == ToneCurve::linear) all.emplace_back("LINEAR_TONE");
     return all;

@@ -28,6 +28,9 @@ constexpr GLuint seen_color_unit = 12, seen_depth_unit = 13;
 
 std::vector<std::string> defines(const RenderScene& scene) {
     std::vector<std::string> all = scene_defines(scene);
+    const bool floor_mirrors = std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                                           [](const RenderBody& body) { return body.reflection > 0.0f; });
+    if (!floor_mirrors) all.emplace_back("REFLECTIVE");  // one mirror has an image
     const auto& waves = scene.surface.waves();
     if (waves.empty()) return all;
     std::string list;

@@ -17,8 +17,9 @@ struct RenderScene {
     std::vector<LampDescription> lamps;  // empty: the light alone
     std::optional<EnvironmentDescription> environment;
     std::optional<WaterDescription> water;
-    WaterSurface surface;   // of the water
-    double exposure = 0.0;  // stops
+    WaterSurface surface;       // of the water
+    std::optional<double> cut;  // m, y, below which bodies are not drawn
+    double exposure = 0.0;      // stops
     ToneCurve tone = ToneCurve::filmic;
     int shadow_alpha = 0;                           // of ground shadows, see TRANSPARENT of shaders/plane.frag
     bool sun_up = true;                             // false disables sunlight, see sun_is_up()
