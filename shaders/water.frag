@@ -1,7 +1,7 @@
 #version 410 core
-// The surface of [water] over the finished picture, of which it reads the color and the depth: what is below is tinted
-// by its way through the water (Beer's law), and the sky is mirrored (Fresnel). WAVES of them, WAVE_LIST: k, 1/m, and
-// amplitude, m; EYE_BELOW: the eye is in the water.
+// The surface of [water] over the finished picture, of which it reads the color and the depth. The light from below is
+// tinted by its way through the water (Beer's law); the sky and, if REFLECTIVE, bodies are mirrored (Fresnel). WAVES is
+// their number, WAVE_LIST has k, 1/m, and amplitude, m, of each. EYE_BELOW: the eye is in the water.
 #include "lighting.glsl"
 
 uniform sampler2D seen_color;
@@ -54,6 +54,22 @@ vec3 sky_along(vec3 ray) {
 #endif
 }
 
+#ifdef REFLECTIVE
+// Between the pixels of the image, color times alpha. `at`: pixels, from left to right as seen here.
+vec4 reflected_at(vec2 at) {
+    ivec2 last = textureSize(reflection_image, 0) - 1;
+    vec2 place = at - 0.5, share = fract(place);
+    vec4 sum = vec4(0.0);
+    for (int i = 0; i < 4; ++i) {
+        ivec2 corner = ivec2(i & 1, i >> 1), from = clamp(ivec2(floor(place)) + corner, ivec2(0), last);
+        vec4 texel = texelFetch(reflection_image, ivec2(last.x - from.x, from.y), 0);
+        vec2 weight = mix(1.0 - share, share, vec2(corner));
+        sum += weight.x * weight.y * vec4(light_of_shown(texel.rgb) * texel.a, texel.a);
+    }
+    return sum;
+}
+#endif
+
 // The smaller of the two changes of the depth to the neighbors: that within the surface of this pixel.
 float change_of_depth(ivec2 at, ivec2 way, float depth) {
     ivec2 last = textureSize(seen_depth, 0) - 1;
@@ -102,12 +118,13 @@ void main() {
     vec3 light = sky_along(mirrored);
 #endif
 #ifdef REFLECTIVE
-    // Still water shows them at the pixel itself. A wave moves them as if they were rather far away.
-    vec3 shown_ray = mix(view, vec3(mirrored.x, -mirrored.y, mirrored.z), reflection_way);
+    // The image is that of a mirror at the level: a water line that is higher by h is lower by h in it. The slope of a
+    // wave moves bodies as if they were rather far away.
+    float high = v_at.y + v_absorbed.w;
+    vec3 shown_ray = normalize(v_at - vec3(0.0, 2.0 * high, 0.0)) + reflection_way * (vec3(mirrored.x, -mirrored.y, mirrored.z) - view);
     vec2 shown_at = vec2(dot(v_clip_x, shown_ray), dot(v_clip_y, shown_ray)) / max(dot(v_clip_w, shown_ray), 1e-3);
-    ivec2 size = textureSize(reflection_image, 0), from = ivec2(floor((0.5 + 0.5 * shown_at) * vec2(size)));
-    vec4 body = texelFetch(reflection_image, ivec2(size.x - 1 - clamp(from.x, 0, size.x - 1), clamp(from.y, 0, size.y - 1)), 0);
-    light = mix(light, light_of_shown(body.rgb), body.a);
+    vec4 bodies = reflected_at((0.5 + 0.5 * shown_at) * vec2(textureSize(reflection_image, 0)));
+    light = light * (1.0 - bodies.a) + bodies.rgb;
 #endif
     light = mix(through_water(below, max(behind - axis, 0.0) * far / axis), light, mirrors);
 

@@ -21,7 +21,7 @@ struct RenderSwitches : RenderOptions {
     double shift_x = 0.0, shift_y = 0.0;  // displacement of the frame, below 1 pixel: for averages of many frames
     std::optional<std::array<std::uint8_t, 3>> plain_background = {};  // sRGB, instead of the sky and the planes
     std::optional<PlaneShape> mirror = {};  // world frame: the camera is below it as far as it is above
-    bool above_mirror = false;              // draws only the parts of bodies that are above it
+    std::optional<double> cut = {};         // m, y, below which bodies are not drawn
     PassTimes* times = nullptr;             // sums of the costs of passes; must outlive the renderer
     GlDevice* device =
         nullptr;  // of another owner, with its compiled shaders; must outlive the renderer. Null: an own one

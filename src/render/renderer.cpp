@@ -63,7 +63,7 @@ RenderScene drawn_scene(const SceneDescription& description, const RenderSwitche
     RenderScene scene = make_render_scene(description);
     if (switches.transparent && scene.environment && scene.environment->ground_shadow)
         scene.shadow_alpha = is_analytic(description, switches) ? 1 : 2;
-    if (switches.mirror && switches.above_mirror) scene.cut = switches.mirror->offset;
+    scene.cut = switches.cut;
     return scene;
 }
 
@@ -76,6 +76,12 @@ PlaneShape mirror_plane(const BodyDescription& body) {
     return plane_in_world(proxy, state);
 }
 
+double lowest_trough(const WaterDescription& water) {
+    double lowest = water.level;
+    for (const WaterWave& wave : water.waves) lowest -= 0.5 * wave.height;
+    return lowest;
+}
+
 /// Draws the bodies that the scene's mirror, a plane or still water, shows, for a renderer of the scene; null without
 /// one.
 std::unique_ptr<Renderer> mirror_renderer(const SceneDescription& scene, RenderSwitches switches, GlDevice& device) {
@@ -84,7 +90,7 @@ std::unique_ptr<Renderer> mirror_renderer(const SceneDescription& scene, RenderS
     SceneDescription bodies = scene;
     bodies.water.reset();
     switches.mirror = mirror ? mirror_plane(scene.bodies[*mirror]) : PlaneShape{Vec3::UnitY(), scene.water->level};
-    switches.above_mirror = !mirror;
+    if (!mirror) switches.cut = lowest_trough(*scene.water);
     switches.transparent = true;
     switches.shift_x = -switches.shift_x;
     switches.keep_depths = false;
