@@ -30,7 +30,8 @@ layout(location = 0) out vec4 pixel;
 
 // The light that displayed() showed as this.
 vec3 light_of_shown(vec3 shown) {
-    vec3 light = mix(shown / 12.92, pow((shown + 0.055) / 1.055, vec3(2.4)), step(0.04045, shown));
+    // Cubic fit to IEC 61966-2-1 (1999), to 0.002.
+    vec3 light = shown * (0.012522878 + shown * (0.682171111 + shown * 0.305306011));
 #ifndef LINEAR_TONE
     vec3 shoulder = 0.62 - 0.38 * log(max((1.0 - light) / 0.38, 1e-3));
     light = mix(light, shoulder, step(0.62, light));
@@ -55,7 +56,7 @@ vec3 sky_along(vec3 ray) {
 }
 
 #ifdef REFLECTIVE
-// Between the pixels of the image, color times alpha. `at`: pixels, from left to right as seen here.
+// Between the pixels of the image: shown color times alpha. `at`: pixels, from left to right as seen here.
 vec4 reflected_at(vec2 at) {
     ivec2 last = textureSize(reflection_image, 0) - 1;
     vec2 place = at - 0.5, share = fract(place);
@@ -64,7 +65,7 @@ vec4 reflected_at(vec2 at) {
         ivec2 corner = ivec2(i & 1, i >> 1), from = clamp(ivec2(floor(place)) + corner, ivec2(0), last);
         vec4 texel = texelFetch(reflection_image, ivec2(last.x - from.x, from.y), 0);
         vec2 weight = mix(1.0 - share, share, vec2(corner));
-        sum += weight.x * weight.y * vec4(light_of_shown(texel.rgb) * texel.a, texel.a);
+        sum += weight.x * weight.y * vec4(texel.rgb * texel.a, texel.a);
     }
     return sum;
 }
@@ -124,15 +125,16 @@ void main() {
     vec3 shown_ray = normalize(v_at - vec3(0.0, 2.0 * high, 0.0)) + reflection_way * (vec3(mirrored.x, -mirrored.y, mirrored.z) - view);
     vec2 shown_at = vec2(dot(v_clip_x, shown_ray), dot(v_clip_y, shown_ray)) / max(dot(v_clip_w, shown_ray), 1e-3);
     vec4 bodies = reflected_at((0.5 + 0.5 * shown_at) * vec2(textureSize(reflection_image, 0)));
-    light = light * (1.0 - bodies.a) + bodies.rgb;
+    light = mix(light, light_of_shown(bodies.rgb / max(bodies.a, 1e-3)), bodies.a);
 #endif
     light = mix(through_water(below, max(behind - axis, 0.0) * far / axis), light, mirrors);
 
     vec3 middle = normalize(v_to_light.xyz - view);
     float n_l = clamp(dot(normal, v_to_light.xyz), 0.0, 1.0), edge = 1.0 - clamp(dot(middle, -view), 0.0, 1.0);
+    float edge2 = edge * edge;
     float roughness = sqrt(sqrt(water_glint * water_glint + 2.0 * hidden));
     float lobe = min(specular_lobe(roughness, clamp(dot(normal, middle), 0.0, 1.0), max(n_l, 1e-3), max(n_v, 1e-3)), brightest_glint);
-    vec3 glint = v_sun * (n_l * lobe * (water_reflectance + (1.0 - water_reflectance) * pow(edge, 5.0)));
+    vec3 glint = v_sun * (n_l * lobe * (water_reflectance + (1.0 - water_reflectance) * edge2 * edge2 * edge));
 #ifdef ENVIRONMENT
     glint *= v_sun_share;
 #endif
