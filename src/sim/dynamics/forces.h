@@ -65,8 +65,8 @@ public:
     /// The sum of all forces on a body that moves freely. `pull`: of the forces between bodies.
     Wrench in_flight(std::size_t index, const Body& body, const FlightPoint& at, const FlightTime& time,
                      const Wrench& pull) const;
-    /// N, of the forces between bodies that are held.
-    Vec3 held(std::size_t index) const;
+    /// The forces between bodies that are held.
+    Wrench held(std::size_t index) const;
 
     /// Gravity, wind and fields in [from, to), for the body's present state.
     Wrench fields(std::size_t index, const Body& body, double from, double to) const;
@@ -125,7 +125,6 @@ private:
         return !wind_ && !water_ && place_.empty() && (pairs_.empty() || !pairs_.has(std::uint32_t(index)));
     }
     Wrench weather(const Body& body, const Vec3& velocity) const;
-    Wrench held(std::size_t index) const;
     Wrench alone(std::size_t index, const Body& body, const MassPoint& point, const Mat3& rotation, double time) const;
     Wrench dry_fields(std::size_t index, const Body& body, double from, double to) const;
     Wrench throughout_dry(std::size_t index, const Body& body, double from, double to) const;
