@@ -67,7 +67,7 @@ class Teaching(program.ProgramTest):
         return [row for row in rows if row["body"] == name]
 
     def test_there_is_a_scene_for_each_section(self):
-        self.assertEqual([path.name[:2] for path in SCENES], [f"{n:02}" for n in range(1, 20)])
+        self.assertEqual([path.name[:2] for path in SCENES], [f"{n:02}" for n in (*range(1, 20), 21)])
 
     def test_captions_fill_the_clip(self):
         for path in SCENES:
@@ -273,6 +273,15 @@ class Teaching(program.ProgramTest):
             self.near(length(vector(rows[29], ("vx", "vy", "vz"))), 0.0, 1e-12)
             self.near(length(vector(rows[-1], ("vx", "vy", "vz"))), 200.0 / 4.0 * 0.1**2 / distance**2, 1e-9)
         self.assertGreater(length(vector(self.body(trajectory, "box")[-1], ("wx", "wy", "wz"))), 0.1)
+
+    def test_floating_bodies(self):
+        last = {row["body"]: row for row in self.simulate("21")[-3:]}
+        def up(name):
+            return sorted(abs(x) for x in turn_back(vector(last[name], ("qw", "qx", "qy", "qz")), [0.0, 1.0, 0.0]))
+        for name, expected in (("flat box", [0.0, 0.0, 1.0]), ("bar", [0.0, 0.5**0.5, 0.5**0.5]),
+                               ("cube", [3.0**-0.5] * 3)):
+            for value, wanted in zip(up(name), expected):
+                self.near(value, wanted, 0.05)
 
 
 if __name__ == "__main__":
