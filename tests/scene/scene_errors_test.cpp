@@ -458,6 +458,9 @@ TEST(SceneErrors, OfWater) {
         {with("@[water]\n[simulation]\ngravity = [1, -9, 0]"), "water needs gravity along -y"},
         {with("@[water]\n[simulation]\nmethod = \"notes\""), "unknown to the method of the notes"},
         {body("water_drag = @-1"), "water_drag must be from 0 to"},
+    });
+}
+
 TEST(SceneErrors, OfFracture) {
     const std::string hard = "strength = 1e6\n", slabs = ", pattern = \"slabs\"";
     const auto in_body = [&](const std::string& keys) { return body(hard + "fracture = { " + keys + " }"); };
