@@ -67,7 +67,7 @@ class Teaching(program.ProgramTest):
         return [row for row in rows if row["body"] == name]
 
     def test_there_is_a_scene_for_each_section(self):
-        self.assertEqual([path.name[:2] for path in SCENES], [f"{n:02}" for n in (*range(1, 20), 21)])
+        self.assertEqual([path.name[:2] for path in SCENES], [f"{n:02}" for n in range(1, 22)])
 
     def test_captions_fill_the_clip(self):
         for path in SCENES:
@@ -265,6 +265,11 @@ class Teaching(program.ProgramTest):
             part = rows[60 * second + 1:60 * second + 60]
             self.assertGreater(max(length(vector(row, ("wx", "wy", "wz"))) for row in part), 0.2)
             self.assertGreater(min(float(row["y"]) for row in part), 0.23)
+
+    def test_struck_bar(self):
+        rows = {row["body"]: row for row in self.simulate("20", tables=("breaks",))}
+        self.assertEqual({name: int(row["bond"]) for name, row in rows.items()}, {"end": 9, "quarter": 7})
+        self.assertEqual({int(row["pieces"]) for row in rows.values()}, {2})
 
     def test_explosion(self):
         trajectory = self.simulate("19")

@@ -11,6 +11,7 @@
 #include "core/safe_text.h"
 #include "output/table_writer.h"
 #include "scene/fields/choices.h"
+#include "sim/geometry/shapes/shape.h"
 #include "sim/world.h"
 
 #include <fmt/format.h>
@@ -190,19 +191,25 @@ void print_head(const SceneDescription& scene) {
             scene.water->density, scene.water->drag, count_text(scene.water->waves.size(), "wave", "waves"));
 }
 
+/// The number of bodies before the first piece: pieces stand at the end.
+std::size_t without_pieces(const SceneDescription& scene) {
+    return std::size_t(std::ranges::count_if(scene.bodies, [](const BodyDescription& body) { return !body.piece_of; }));
+}
+
 void print_groups(const SceneDescription& scene, const World& world) {
     struct Group {
         std::size_t count = 0;
         double mass = 0.0;
     };
     std::map<std::pair<BodyType, std::string>, Group> groups;
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const std::size_t wholes = without_pieces(scene);
+    for (std::size_t i = 0; i < wholes; ++i) {
         const BodyDescription& body = scene.bodies[i];
         Group& group = groups[{body.type, shape_text(body.shape).kind}];
         ++group.count;
         group.mass += world.report(i).mass;
     }
-    put("\n{} bodies\n", scene.bodies.size());
+    put("\n{} bodies\n", wholes);
     for (const auto& [key, group] : groups) {
         put("  {:>7} {} {}", group.count, name_of(key.first), key.second);
         if (key.first == BodyType::dynamic) put(", {:.6g} kg in total", group.mass);
@@ -216,7 +223,7 @@ void print_size_hints(const SceneDescription& scene) {
     std::set<std::string> named;
     for (const BodyDescription& body : scene.bodies) {
         const auto* mesh = std::get_if<MeshShape>(&body.shape);
-        if (mesh == nullptr) continue;
+        if (mesh == nullptr || body.piece_of) continue;
         const double length = mesh->asset->mesh.bounds().extent().maxCoeff();
         if ((length >= smallest && length <= largest) || !named.insert(mesh->asset->file).second) continue;
         put("  hint: the mesh of '{}' is {:.4g} m long: if its file is in another unit, give its shape {}\n",
@@ -228,7 +235,7 @@ void print_bodies(const SceneDescription& scene, const World& world) {
     if (scene.bodies.empty()) return;
     put("\n  {:<16} {:<10} {:<7} {:<28} {:>10}  {:<30} {:>6}\n", "name", "type", "shape", "measures (m)", "mass (kg)",
         "principal inertia (kg m^2)", "hull");
-    const std::size_t count = std::min(scene.bodies.size(), listed_bodies);
+    const std::size_t wholes = without_pieces(scene), count = std::min(wholes, listed_bodies);
     for (std::size_t i = 0; i < count; ++i) {
         const BodyDescription& body = scene.bodies[i];
         const BodyReport report = world.report(i);
@@ -239,7 +246,7 @@ void print_bodies(const SceneDescription& scene, const World& world) {
             moves ? vector_text(report.principal_inertia) : "-",
             report.hull_vertices > 0 ? std::to_string(report.hull_vertices) : "-");
     }
-    if (count < scene.bodies.size()) put("  ... and {} more\n", scene.bodies.size() - count);
+    if (count < wholes) put("  ... and {} more\n", wholes - count);
     put("  hull: vertices of the convex shape that collides\n");
     print_size_hints(scene);
 }
@@ -308,9 +315,11 @@ void write_bodies(const std::filesystem::path& file, const SceneDescription& sce
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         const BodyDescription& body = scene.bodies[i];
         const BodyReport report = world.report(i);
-        const Vec3& c = report.center_of_mass;
-        const Mat3& inertia = report.inertia;
-        table.text(body.name).text(name_of(body.type)).number(body.type == BodyType::dynamic ? report.mass : 0.0);
+        MassProperties matter{report.mass, report.center_of_mass, report.inertia};
+        if (body.piece_of) matter = mass_properties(body);  // it has none in the world before it is there
+        const Vec3& c = matter.center_of_mass;
+        const Mat3& inertia = matter.inertia;
+        table.text(body.name).text(name_of(body.type)).number(body.type == BodyType::dynamic ? matter.mass : 0.0);
         table.number(c.x()).number(c.y()).number(c.z());
         table.number(inertia(0, 0)).number(inertia(1, 1)).number(inertia(2, 2));
         table.number(inertia(0, 1)).number(inertia(0, 2)).number(inertia(1, 2));
