@@ -280,13 +280,16 @@ class Teaching(program.ProgramTest):
         self.assertGreater(length(vector(self.body(trajectory, "box")[-1], ("wx", "wy", "wz"))), 0.1)
 
     def test_floating_bodies(self):
-        last = {row["body"]: row for row in self.simulate("21")[-3:]}
-        def up(name):
-            return sorted(abs(x) for x in turn_back(vector(last[name], ("qw", "qx", "qy", "qz")), [0.0, 1.0, 0.0]))
+        trajectory, energy = self.simulate("21", tables=("trajectory", "energy"))
+        last = {row["body"]: row for row in trajectory[-3:]}
         for name, expected in (("flat box", [0.0, 0.0, 1.0]), ("bar", [0.0, 0.5**0.5, 0.5**0.5]),
                                ("cube", [3.0**-0.5] * 3)):
-            for value, wanted in zip(up(name), expected):
-                self.near(value, wanted, 0.05)
+            up = turn_back(vector(last[name], ("qw", "qx", "qy", "qz")), [0.0, 1.0, 0.0])
+            for value, wanted in zip(sorted(map(abs, up)), expected):
+                self.near(value, wanted, 0.02)
+        self.assertEqual(list(energy[0])[-1], "water_loss")
+        books = [float(row["total"]) + float(row["water_loss"]) - float(row["work"]) for row in energy]
+        self.near(max(books) - min(books), 0.0, 1e-3 * float(energy[-1]["water_loss"]))
 
 
 if __name__ == "__main__":

@@ -371,5 +371,27 @@ TEST(Water, AnEelSwimsHeadFirst) {
     EXPECT_LT(std::abs(swum.z()), 0.3 * swum.x());
 }
 
+// A board breaks on a rock above the water; its pieces float as boards of their own.
+TEST(Water, PiecesFloatByTheirOwnVolumes) {
+    const SceneDescription scene = parse_scene(
+        "format = 1\n[simulation]\nduration = 10\n[water]\nviscosity = 60\n"
+        "[materials.board]\ndensity = 500\nstrength = 1e5\nstiffness = 1e9\ntoughness = 1\nrestitution = 0\n"
+        "[[body]]\nname = \"rock\"\ntype = \"fixed\"\nshape = { type = \"box\", size = [0.1, 1, 1] }\n"
+        "[[body]]\nname = \"board\"\nmaterial = \"board\"\nshape = { type = \"box\", size = [2, 0.1, 0.4] }\n"
+        "fracture = { cells = 6, pattern = \"slabs\", seed = 3 }\nposition = [0, 2, 0]\n",
+        "board.toml");
+    World world(scene);
+    frames(world, 600);
+    std::size_t pieces = 0;
+    const Snapshot snapshot = world.snapshot();
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        if (!scene.bodies[i].piece_of || snapshot.bodies[i].absent) continue;
+        ++pieces;
+        EXPECT_GT(snapshot.bodies[i].center_of_mass.y(), -0.1) << i;
+        EXPECT_LT(snapshot.bodies[i].center_of_mass.y(), 0.1) << i;
+    }
+    EXPECT_GE(pieces, 2u);
+}
+
 }  // namespace
 }  // namespace tumble::water_test

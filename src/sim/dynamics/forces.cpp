@@ -43,8 +43,8 @@ std::shared_ptr<const TriangleMesh> solid_of(const BodyDescription& d, const Vec
     return solid;
 }
 
-std::shared_ptr<const WaterForces> water_of(const SceneDescription& scene, const std::vector<std::size_t>& places,
-                                            const Vec3& origin) {
+std::shared_ptr<WaterForces> water_of(const SceneDescription& scene, const std::vector<std::size_t>& places,
+                                      const Vec3& origin) {
     if (!scene.water) return nullptr;
     auto water =
         std::make_shared<WaterForces>(*scene.water, scene.simulation.gravity.norm(), origin, scene.bodies.size());

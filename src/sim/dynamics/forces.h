@@ -42,6 +42,10 @@ public:
     /// J, in fields and in forces between bodies.
     double potential(const std::vector<Body>& bodies) const;
     bool has_water() const { return water_ != nullptr; }
+    /// The body, a piece of another one, has another shape from now on.
+    void reshape(std::size_t index, const Body& body) {
+        if (water_) water_->reshape(index, body.collider);
+    }
     /// J, of the water that bodies displace. Zero with waves, whose forces have no potential.
     double water_potential(const std::vector<Body>& bodies) const;
     /// The forces of the water alone, as those of throughout() and of flown().
@@ -138,8 +142,8 @@ private:
     Explosions explosions_;
     std::vector<std::uint32_t> blasted_;  // bodies with forces of explosions, which stand last in at_points_
     PairForces pairs_;
-    std::vector<Wrench> held_;                  // in the order of PairForces::bodies()
-    std::shared_ptr<const WaterForces> water_;  // null: none
+    std::vector<Wrench> held_;            // in the order of PairForces::bodies()
+    std::shared_ptr<WaterForces> water_;  // null: none
 };
 
 }  // namespace tumble

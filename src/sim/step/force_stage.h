@@ -19,6 +19,8 @@ public:
 
     const ForceField& field() const { return field_; }
 
+    /// See ForceField::reshape().
+    void reshape(std::size_t index, const Body& body) { field_.reshape(index, body); }
     /// See ForceField::move_points().
     void move_points(std::size_t from, const std::function<std::uint32_t(const Vec3& point)>& to) {
         field_.move_points(from, to);

@@ -315,8 +315,12 @@ void FractureStage::exchange(std::span<const std::uint32_t> changed, const StepC
     detection.exchange(step.set.bodies, changed);
 }
 
-// Forces at points act on the pieces that hold the points.
+// Forces at points act on the pieces that hold the points, and water on their shapes.
 void FractureStage::move_forces(const StepContext& step) const {
+    for (std::uint32_t i = 0; i < step.set.bodies.size() && step.forces.field().has_water(); ++i) {
+        const Body& body = step.set.bodies[i];
+        if (bodies_.entry_of(i) != BreakableBodies::none && body.dynamic() && !body.absent) step.forces.reshape(i, body);
+    }
     const std::vector<std::uint32_t> pushed(step.forces.field().pushed().begin(), step.forces.field().pushed().end());
     for (const std::uint32_t i : pushed) {
         const std::uint32_t entry = bodies_.entry_of(i);

@@ -27,6 +27,11 @@ void WaterForces::add(std::size_t body, const CollisionShape& shape, std::shared
     swimmer.shown = mean_projected_area(shape);
 }
 
+void WaterForces::reshape(std::size_t body, const CollisionShape& shape) {
+    const Swimmer& swimmer = swimmers_[body];
+    add(body, shape, nullptr, swimmer.present ? swimmer.drag : description_.drag);
+}
+
 WaterPlane WaterForces::plane_at(const Vec3& place, double time) const {
     if (surface_.still()) return {Vec3::UnitY(), surface_.level()};
     const Vec3 normal = surface_.normal(place.x(), place.z(), time);

@@ -49,6 +49,9 @@ public:
     /// A dynamic body collides as `shape`. `solid`: a closed mesh in the shape's frame that is its volume, or null.
     void add(std::size_t body, const CollisionShape& shape, std::shared_ptr<const TriangleMesh> solid, double drag);
 
+    /// The body, a piece of another one, has this shape from now on.
+    void reshape(std::size_t body, const CollisionShape& shape);
+
     /// `flies`: the body moves freely, and takes water with it. `ahead`: s, of a step with the forces at its start:
     /// the body may enter the water within it.
     WaterLoad load(std::size_t body, const WaterBody& matter, const WaterMotion& motion, double time, bool flies,
