@@ -198,7 +198,7 @@ AovRenderer::AovRenderer(const SceneDescription& scene, const AovSet& aovs)
       frame_{PinholeCamera(Camera(scene.camera, scene.output.width, scene.output.height)), {}, {}, {}, {}, {}},
       parts_(surface_parts(scene)),
       finder_(parts_, scene.cords) {
-    if (scene.water) water_ = WaterSurface(*scene.water, -scene.simulation.gravity.y());
+    if (scene.water) water_ = WaterSurface(*scene.water, scene.simulation.gravity.norm());
 }
 
 PinholeCamera AovRenderer::camera_at(const Snapshot& snapshot) const {

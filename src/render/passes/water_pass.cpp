@@ -125,7 +125,8 @@ void WaterPass::draw(const FrameContext& frame, Framebuffer& framebuffer) {
     const GlFunctions& gl = device_->gl();
     const WaterSurface& water = frame.scene.surface;
     const Vec3& eye = frame.camera.eye();
-    const bool below = eye.y() <= water.height(eye.x(), eye.z(), frame.snapshot.time);
+    const double surface = water.height(eye.x(), eye.z(), frame.snapshot.time);
+    const bool below = eye.y() <= surface;
     gl.BindVertexArray(array_.name());
     if (below) {
         grid_ = {{-1.0f, -1.0f, 0.5f}, {1.0f, -1.0f, 0.5f}, {1.0f, 1.0f, 0.5f}, {-1.0f, 1.0f, 0.5f}};
@@ -143,8 +144,8 @@ void WaterPass::draw(const FrameContext& frame, Framebuffer& framebuffer) {
     const std::array<double, 3> color = to_linear(frame.scene.water->color);
     program.set("water_color",
                 glm::vec4(float(color[0]), float(color[1]), float(color[2]), float(frame.near_distance)));
-    program.set("water_place", glm::vec4(float(eye.y() - water.level()), float(frame.camera.width()),
-                                         float(frame.camera.height()), 0.0f));
+    program.set("water_place", glm::vec4(float(eye.y() - (below ? surface : water.level())),
+                                         float(frame.camera.width()), float(frame.camera.height()), 0.0f));
     std::array<float, 16> phases{};
     for (std::size_t i = 0; i < water.waves().size(); ++i) {
         const WaterSurface::Wave& wave = water.waves()[i];

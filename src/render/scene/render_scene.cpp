@@ -96,7 +96,7 @@ RenderScene describe_bodies(const SceneDescription& description) {
     scene.lamps = description.lamps;
     scene.environment = description.environment;
     scene.water = description.water;
-    if (scene.water) scene.surface = WaterSurface(*scene.water, -description.simulation.gravity.y());
+    if (scene.water) scene.surface = WaterSurface(*scene.water, description.simulation.gravity.norm());
     scene.exposure = description.output.exposure.value_or(0.0);
     scene.tone = description.output.tone.value_or(ToneCurve::filmic);
     scene.sun_up = sun_is_up(description);
