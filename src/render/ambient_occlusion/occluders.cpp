@@ -30,6 +30,9 @@ void add_occluders(const RenderScene& scene, std::size_t body, const BodyState& 
     if (!proxy.solid()) return;
     const Eigen::Matrix3f to_local = state.orientation.toRotationMatrix().transpose().cast<float>();
     const auto add = [&](const Vec3& center, const Vec3& half_size, double radius) {
+        if (state.absent)  // keeps its place in the list
+            return void(occluders.push_back(
+                {Eigen::Vector3f::Zero(), to_local, Eigen::Vector3f::Zero(), 0.0f, 0.0f, 0.0f, body}));
         occluders.push_back({Vec3(state.origin + state.orientation * center - reference).cast<float>(), to_local,
                              half_size.cast<float>(), float(radius), float(proxy.ao_radius),
                              float(half_size.norm() + radius), body});
@@ -43,7 +46,8 @@ void add_occluders(const RenderScene& scene, std::size_t body, const BodyState& 
 OccluderFinder::OccluderFinder(const std::vector<Occluder>& occluders) {
     std::map<int, std::vector<std::uint32_t>> by_size;
     for (std::size_t i = 0; i < occluders.size(); ++i)
-        by_size[std::ilogb(influence(occluders[i]))].push_back(std::uint32_t(i));
+        if (influence(occluders[i]) > 0.0f)  // others are of absent bodies
+            by_size[std::ilogb(influence(occluders[i]))].push_back(std::uint32_t(i));
     for (const auto& [exponent, members] : by_size) {
         Level& level = levels_.emplace_back();
         level.cell = cell_of_influence * std::ldexp(2.0f, exponent);

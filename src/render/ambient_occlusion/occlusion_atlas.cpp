@@ -51,6 +51,7 @@ struct AmbientOcclusion::State {
 
     void follow(const FrameContext& frame);
     void find_planes(const FrameContext& frame);
+    bool same_piece(std::size_t a, std::size_t b) const;
     void forget_touched(const Visibility& visible, const OccluderFinder& movers);
     void update_plane_tiles(const FrameContext& frame);
     void update_body(std::size_t body, std::uint8_t visible_faces, const FrameContext& frame);
@@ -92,6 +93,15 @@ struct AmbientOcclusion::State {
     std::vector<std::size_t> found;                           // possible occluders of the current body
     std::vector<std::optional<LightmapOcclusion>> lightmaps;  // made when first visible
 };
+
+// True for a body itself, and for cells of a body that stand as they did in it: there is no gap between them.
+bool AmbientOcclusion::State::same_piece(std::size_t a, std::size_t b) const {
+    if (a == b) return true;
+    const std::size_t whole = scene.bodies[a].whole;
+    if (whole == RenderBody::no_whole || whole != scene.bodies[b].whole) return false;
+    const BodyState &of_a = snapshot->bodies[a], &of_b = snapshot->bodies[b];
+    return of_a.origin == of_b.origin && of_a.orientation.coeffs() == of_b.orientation.coeffs();
+}
 
 // Rebuilds the occluders of the bodies that moved, and finds these.
 void AmbientOcclusion::State::follow(const FrameContext& frame) {
@@ -250,7 +260,7 @@ void AmbientOcclusion::State::update_body(std::size_t body, std::uint8_t visible
     const Eigen::Vector3f center = middle.cast<float>();
     finder.find(center, float(proxy.bound_radius), found);
     // A body does not occlude itself, nor others from behind a plane.
-    std::erase_if(found, [&](std::size_t i) { return occluders[i].body == body || behind_plane(occluders[i]); });
+    std::erase_if(found, [&](std::size_t i) { return same_piece(occluders[i].body, body) || behind_plane(occluders[i]); });
     near_planes.clear();
     for (const PlaneInView& plane : planes)
         if (plane.normal.dot(center) + plane.height < proxy.bound_radius + 2.0 * proxy.ao_radius)

@@ -103,7 +103,8 @@ RenderScene describe_bodies(const SceneDescription& description) {
     scene.cords = description.cords;
     for (const BodyDescription& body : description.bodies) {
         RenderBody proxy;
-        proxy.fixed = body.type == BodyType::fixed;
+        proxy.fixed = body.type == BodyType::fixed && !body.fracture;
+        if (body.piece_of) proxy.whole = *body.piece_of;
         if (body.appearance.visible) {
             std::visit([&](const auto& shape) { set_proxy(proxy, shape, scene.meshes); }, body.shape);
             const std::array<double, 3> linear = to_linear(body.appearance.color);

@@ -38,6 +38,8 @@ struct RenderBody {
     glm::vec4 paint{0.0f};                   // Instance::paint
     glm::vec4 glow{0.0f, 0.0f, 0.0f, 1.0f};  // Instance::glow
     bool large_receiver = false;             // a large receiver, see large_receivers.h
+    static constexpr std::size_t no_whole = SIZE_MAX;
+    std::size_t whole = no_whole;  // the body that it is a piece of
     bool fixed = false;                      // never moves
     bool buried = false;                     // and a fixed plane hides it: nothing is fitted to it
     bool without_occlusion = false;  // without AO: too large for its number of texels, which would give wrong values
