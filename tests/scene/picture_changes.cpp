@@ -120,6 +120,7 @@ const std::vector<std::vector<Change>> picture_changes = {
      {"strength", "", "", "", true},
      {"softening", "", "", "", true},
      {"charges", "", "", "", true},
+     {"moments", "", "", "", true},
      {"stiffness", "", "", "", true},
      {"damping", "", "", "", true},
      {"length", "", "", "", true},
