@@ -19,6 +19,7 @@ namespace {
 
 constexpr double least_patch = 2.0, most_patch = 1000.0;  // m, half the side of a plane's square
 constexpr double light_intensity = 3.0;                   // lux; viewers show white surfaces in it as white
+constexpr double water_opacity = 0.7;                     // so that bodies below are seen in every viewer
 constexpr double near_fraction = 1e-3;                    // near plane of the camera, of the distance to its target
 
 Json vector_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
@@ -33,6 +34,7 @@ public:
             if (scene_.bodies[i].appearance.visible) add_body(i);
         add_camera();
         add_light();
+        if (scene_.water) add_water();
         return buffer_.finish(root());
     }
 
@@ -65,6 +67,7 @@ private:
     Triangles patch(const BodyDescription& body, const PlaneShape& plane);
     void add_camera();
     void add_light();
+    void add_water();
     void add_lamps();
     std::size_t add_node(Json node);
     void set_pose(Json& node, const PoseKeys& keys) const;
@@ -283,6 +286,18 @@ void SceneWriter::add_light() {
                              {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}}));
 }
 
+/// The still surface.
+void SceneWriter::add_water() {
+    Appearance look;
+    look.color = scene_.water->color;
+    look.pattern = Pattern::plain;
+    look.roughness = 0.1;
+    look.opacity = water_opacity;
+    Json node = shape_node({}, PlaneShape{Vec3::UnitY(), scene_.water->level}, look, Vec3::Zero(), Quat::Identity());
+    node["name"] = "water";
+    top_.push_back(add_node(std::move(node)));
+}
+
 /// Points and spots of intensity 1 light a surface at 1 m as a sun of intensity 1 does.
 void SceneWriter::add_lamps() {
     for (const LampDescription& lamp : scene_.lamps) {
@@ -314,7 +329,7 @@ void SceneWriter::hide(std::size_t node, const Vec3& size, const std::vector<dou
     for (const double time : absent_from)
         if (time > 0.0) times.push_back(float(time));
     bool shown = absent_from.front() > 0.0;
-    for (std::size_t k = 0; k < times.size(); ++k, shown = !shown) 
+    for (std::size_t k = 0; k < times.size(); ++k, shown = !shown)
         for (int axis = 0; axis < 3; ++axis) sizes.push_back(shown ? float(size[axis]) : 0.0f);
     samplers_.push_back({{"input", buffer_.add(times, 1, GlbBuffer::Use::animation, true)},
                          {"interpolation", "STEP"},

@@ -331,6 +331,16 @@ class Export(program.ProgramTest):
         self.assertNotIn("animations", glb.json)
         self.assertEqual(glb.value("ball", "translation", 0.0), [-2.0, 1.5, 0.0])
 
+    def test_water_is_a_translucent_square_at_its_level(self):
+        glb = self.export(FLIGHT + "[water]\nlevel = -2.5\ncolor = \"#ff0000\"\n", "--duration", 0)
+        node = next(node for node in glb.json["nodes"] if node.get("name") == "water")
+        primitive = glb.json["meshes"][node["mesh"]]["primitives"][0]
+        positions = glb.json["accessors"][primitive["attributes"]["POSITION"]]
+        self.assertEqual((positions["min"][1], positions["max"][1]), (-2.5, -2.5))
+        material = glb.json["materials"][primitive["material"]]
+        self.assertEqual(material["pbrMetallicRoughness"]["baseColorFactor"], [1.0, 0.0, 0.0, 0.7])
+        self.assertEqual(material["alphaMode"], "BLEND")
+
     def test_the_program_reads_its_own_meshes(self):
         self.write("box.toml", '''format = 1
 [[body]]
