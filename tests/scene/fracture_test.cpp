@@ -60,12 +60,34 @@ TEST(Fracture, PiecesHaveTheMassAndTheInertiaOfTheWhole) {
             const SceneDescription scene = cut(shape, pattern);
             const MassProperties whole = mass_properties(scene.bodies.front()), sum = sum_of_masses(masses(scene));
             EXPECT_EQ(sum.mass, whole.mass) << shape << pattern;
-            // The polyhedron that is drawn of a curved shape is a little smaller.
-            const bool curved = shape.find("radius") != std::string::npos;
-            const double tolerance = curved ? 5e-3 : 1e-12;
-            EXPECT_LE((sum.inertia - whole.inertia).norm(), tolerance * whole.inertia.norm()) << shape << pattern;
+            EXPECT_LE((sum.inertia - whole.inertia).norm(), 1e-12 * whole.inertia.norm()) << shape << pattern;
             EXPECT_LE((sum.center_of_mass - whole.center_of_mass).norm(), 1e-12) << shape << pattern;
         }
+}
+
+TEST(Fracture, PiecesOfABallAreDrawnFinerThanTheyCollide) {
+    const SceneDescription scene = cut(shapes[4], "cells = 12");
+    double drawn = 0.0, solid = 0.0;
+    for (const BodyDescription& body : scene.bodies) {
+        if (!body.piece_of) continue;
+        const MeshAsset& asset = *std::get<MeshShape>(body.shape).asset;
+        EXPECT_LT(asset.mesh.vertices.size(), 100u);
+        TriangleMesh surface;
+        for (const MeshAsset::Vertex& v : asset.vertices)
+            surface.vertices.emplace_back(v.position[0], v.position[1], v.position[2]);
+        for (std::size_t i = 0; i < asset.indices.size(); i += 3)
+            surface.triangles.push_back({asset.indices[i], asset.indices[i + 1], asset.indices[i + 2]});
+        drawn += mesh_mass(surface, 1.0).mass;
+        solid += volume(body);
+        for (const MeshAsset::Vertex& v : asset.vertices) {
+            const Vec3 p(v.position[0], v.position[1], v.position[2]), n(v.normal[0], v.normal[1], v.normal[2]);
+            EXPECT_LE(p.norm(), 0.5 + 1e-6);
+            EXPECT_NEAR(n.norm(), 1.0, 1e-6);
+        }
+    }
+    const double ball = 4.0 / 3.0 * 3.14159265358979 * 0.125;
+    EXPECT_NEAR(drawn, ball, 0.005 * ball);
+    EXPECT_NEAR(solid, ball, 0.07 * ball);
 }
 
 TEST(Fracture, CutsEveryCurvedShapeOfAnySize) {

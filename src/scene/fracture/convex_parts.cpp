@@ -12,6 +12,10 @@
 namespace tumble {
 namespace {
 
+// Pieces of curved shapes collide with a quarter of the sides that are drawn, up to 2 % of a radius inside of the
+// surface: the cost of a contact between polyhedra grows as the product of their edges.
+constexpr int collision_coarseness = 4;
+
 ConvexCell box_cell(const Vec3& size) {
     ConvexCell cell;
     const Vec3 half = 0.5 * size;
@@ -39,15 +43,26 @@ ConvexCell mesh_cell(const TriangleMesh& mesh) {
     return cell_of(make_hull(mesh.vertices, Vec3::Zero()));
 }
 
+CurvedShape as_curved(const SphereShape& ball) {
+    CurvedShape round;
+    round.kind = CurvedKind::ellipsoid;
+    round.radii = Vec3::Constant(ball.radius);
+    return round;
+}
+
+/// The surface that is drawn of a curved shape; empty for others.
+ConvexCell drawn_cell(const Shape& shape) {
+    if (const auto* ball = std::get_if<SphereShape>(&shape)) return mesh_cell(curved_mesh(as_curved(*ball))->mesh);
+    if (const auto* curved = std::get_if<CurvedShape>(&shape)) return mesh_cell(curved_mesh(*curved)->mesh);
+    return {};
+}
+
 struct PartCell {
     ConvexCell operator()(const BoxShape& box) const { return box_cell(box.size); }
-    ConvexCell operator()(const SphereShape& ball) const {
-        CurvedShape round;
-        round.kind = CurvedKind::ellipsoid;
-        round.radii = Vec3::Constant(ball.radius);
-        return mesh_cell(curved_mesh(round)->mesh);
+    ConvexCell operator()(const SphereShape& ball) const { return (*this)(as_curved(ball)); }
+    ConvexCell operator()(const CurvedShape& curved) const {
+        return mesh_cell(curved_mesh(curved, 1, collision_coarseness)->mesh);
     }
-    ConvexCell operator()(const CurvedShape& curved) const { return mesh_cell(curved_mesh(curved)->mesh); }
     ConvexCell operator()(const MeshShape& mesh) const {
         constexpr double rounding = 1e-6;  // of the volume: a dent of less is of the file's digits
         if (mesh.mass_from == MassFrom::shell)
@@ -94,15 +109,16 @@ std::vector<ConvexPart> convex_parts(const BodyDescription& body) {
     std::vector<ConvexPart> parts;
     const auto* compound = std::get_if<CompoundShape>(&body.shape);
     if (compound == nullptr) {
-        parts.push_back({std::visit(PartCell(), body.shape), &body.shape, Vec3::Zero(), Quat::Identity(), body.density,
-                         std::nullopt, true});
+        parts.push_back({std::visit(PartCell(), body.shape), drawn_cell(body.shape), &body.shape, Vec3::Zero(),
+                         Quat::Identity(), body.density, std::nullopt, true});
         return parts;
     }
     for (const CompoundPart& part : *compound->parts) {
         if (!part.collide) throw InputError("needs parts that collide, and a part of the compound does not");
-        ConvexCell cell = std::visit(PartCell(), part.shape);
+        ConvexCell cell = std::visit(PartCell(), part.shape), drawn = drawn_cell(part.shape);
         place(cell, part.position, part.rotation);
-        parts.push_back({std::move(cell), &part.shape, part.position, part.rotation,
+        place(drawn, part.position, part.rotation);
+        parts.push_back({std::move(cell), std::move(drawn), &part.shape, part.position, part.rotation,
                          part.density.value_or(body.density), part.color, part.visible});
     }
     check_apart(parts);

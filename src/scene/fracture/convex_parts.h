@@ -11,6 +11,7 @@ namespace tumble {
 
 struct ConvexPart {
     ConvexCell cell;     // m, the body's frame
+    ConvexCell drawn;    // with the surface that is drawn; empty: the same
     const Shape* shape;  // of the part, in its own frame
     Vec3 position;       // of that frame, m
     Quat rotation;
@@ -19,7 +20,7 @@ struct ConvexPart {
     bool visible;
 };
 
-/// Curved shapes as the polyhedra that are drawn. Throws InputError, with the remedy, for shapes that are no union of
+/// Curved shapes as polyhedra with corners on their surface, and finer ones to be drawn. Throws InputError, with the remedy, for shapes that are no union of
 /// convex parts beside each other.
 std::vector<ConvexPart> convex_parts(const BodyDescription& body);
 

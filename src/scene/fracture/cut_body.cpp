@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 namespace tumble {
@@ -75,12 +76,44 @@ Cut cut_parts(const std::vector<ConvexPart>& parts, const FractureDescription& f
     return cut;
 }
 
-/// The drawn surface of a cell: outer faces as the part looks, inner ones in their color.
+/// The cell with the surface that is drawn.
+ConvexCell drawn_of(const ConvexCell& cell, const ConvexPart& part, double tolerance) {
+    if (part.drawn.empty()) return cell;
+    ConvexCell drawn = part.drawn;
+    for (const ConvexCell::Face& face : cell.faces)
+        if (!face.outer) drawn.clip({face.normal, face.offset}, tolerance);
+    return drawn.empty() ? cell : drawn;
+}
+
+/// Normals at the corners of faces: of outer faces the mean of those that meet there at small angles.
+std::vector<std::vector<Vec3>> corner_normals(const ConvexCell& cell) {
+    constexpr double smooth = 0.9;  // cosine: 26 degrees, more than between sides of drawn curved shapes
+    std::vector<std::vector<Vec3>> normals(cell.faces.size());
+    std::vector<std::vector<std::size_t>> faces_at(cell.vertices.size());
+    for (std::size_t f = 0; f < cell.faces.size(); ++f)
+        for (const std::uint32_t v : cell.faces[f].vertices)
+            if (cell.faces[f].outer) faces_at[v].push_back(f);
+    for (std::size_t f = 0; f < cell.faces.size(); ++f)
+        for (const std::uint32_t v : cell.faces[f].vertices) {
+            Vec3 sum = cell.faces[f].normal;
+            if (cell.faces[f].outer)
+                for (const std::size_t other : faces_at[v])
+                    if (other != f && cell.faces[other].normal.dot(cell.faces[f].normal) > smooth)
+                        sum += cell.faces[other].normal;
+            normals[f].push_back(sum.normalized());
+        }
+    return normals;
+}
+
+/// The mesh of a piece. Outer faces look as the part, inner ones have their own color.
 std::shared_ptr<const MeshAsset> piece_mesh(const ConvexCell& cell, const ConvexPart& part, const Appearance& look,
-                                            Color inner) {
+                                            Color inner, double tolerance) {
     auto asset = std::make_shared<MeshAsset>();
     asset->mesh = cell.mesh();
     asset->convex = true;
+    const ConvexCell drawn = drawn_of(cell, part, tolerance);
+    const bool curved = !part.drawn.empty();
+    const auto normals = corner_normals(drawn);
     std::vector<MeshAsset::Vertex> own;  // in the frame of the part, where textures have their places
     std::vector<bool> outer;             // of each triangle
     const Quat to_part = part.rotation.conjugate();
@@ -88,11 +121,13 @@ std::shared_ptr<const MeshAsset> piece_mesh(const ConvexCell& cell, const Convex
         return MeshAsset::Vertex{{float(p.x()), float(p.y()), float(p.z())},
                                  {float(n.x()), float(n.y()), float(n.z())}};
     };
-    for (const ConvexCell::Face& face : cell.faces) {
+    for (std::size_t f = 0; f < drawn.faces.size(); ++f) {
+        const ConvexCell::Face& face = drawn.faces[f];
         const auto first = std::uint32_t(asset->vertices.size());
-        for (const std::uint32_t v : face.vertices) {
-            asset->vertices.push_back(vertex(cell.vertices[v], face.normal));
-            own.push_back(vertex(to_part * (cell.vertices[v] - part.position), to_part * face.normal));
+        for (std::size_t i = 0; i < face.vertices.size(); ++i) {
+            const Vec3 &p = drawn.vertices[face.vertices[i]], &n = curved ? normals[f][i] : face.normal;
+            asset->vertices.push_back(vertex(p, n));
+            own.push_back(vertex(to_part * (p - part.position), to_part * n));
         }
         for (std::uint32_t i = 2; i < face.vertices.size(); ++i) {
             asset->indices.insert(asset->indices.end(), {first, first + i - 1, first + i});
@@ -110,7 +145,8 @@ std::shared_ptr<const MeshAsset> piece_mesh(const ConvexCell& cell, const Convex
     return asset;
 }
 
-BodyDescription piece_of(const BodyDescription& whole, const ConvexCell& cell, const ConvexPart& part) {
+BodyDescription piece_of(const BodyDescription& whole, const ConvexCell& cell, const ConvexPart& part,
+                         double tolerance) {
     BodyDescription piece = whole;
     piece.type = BodyType::dynamic;
     piece.fracture = nullptr;
@@ -121,7 +157,7 @@ BodyDescription piece_of(const BodyDescription& whole, const ConvexCell& cell, c
     if (const auto* mesh = std::get_if<MeshShape>(part.shape); mesh != nullptr && mesh->painted && !look.has_image())
         look.color = mesh->asset->paint->mean;
     const Color inner = whole.fracture->inner_color.value_or(paler(look.color));
-    MeshShape shape{piece_mesh(cell, part, look, inner)};
+    MeshShape shape{piece_mesh(cell, part, look, inner, tolerance)};
     shape.painted = true;
     piece.shape = std::move(shape);
     piece.appearance.color = look.color;
@@ -132,13 +168,16 @@ BodyDescription piece_of(const BodyDescription& whole, const ConvexCell& cell, c
     return piece;
 }
 
-/// Masses by volumes and densities; the last piece takes the rest of the whole's, so that they add up to it.
+/// Masses by volumes, in each part; the last piece takes the rest of the whole's, so that they add up to it.
 void share_mass(const BodyDescription& whole, const Cut& cut, std::vector<BodyDescription>& pieces) {
     const double mass = mass_properties(whole).mass;
+    std::map<const ConvexPart*, double> volumes;  // looked up only
+    for (std::size_t i = 0; i < cut.cells.size(); ++i) volumes[cut.part_of[i]] += cut.cells[i].volume();
     std::vector<double> weights;
     double sum = 0.0;
     for (std::size_t i = 0; i < cut.cells.size(); ++i) {
-        weights.push_back(cut.part_of[i]->density * cut.cells[i].volume());
+        const ConvexPart& part = *cut.part_of[i];
+        weights.push_back(mass_properties(*part.shape, part.density).mass / volumes[&part] * cut.cells[i].volume());
         sum += weights.back();
     }
     double before = 0.0;
@@ -149,6 +188,19 @@ void share_mass(const BodyDescription& whole, const Cut& cut, std::vector<BodyDe
         before += own;
         pieces[i].mass = own;
         pieces[i].density = own / cut.cells[i].volume();
+    }
+}
+
+/// Polyhedra of curved shapes lack matter at the surface: its moments are shared by mass, so that a body that comes apart
+/// keeps its angular momentum.
+void share_inertia(const BodyDescription& whole, std::vector<BodyDescription>& pieces) {
+    std::vector<MassProperties> parts;
+    for (const BodyDescription& piece : pieces) parts.push_back(mass_properties(piece));
+    const MassProperties sum = sum_of_masses(parts);
+    const Mat3 missing = mass_properties(whole).inertia - sum.inertia;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const Mat3 own = parts[i].inertia + parts[i].mass / sum.mass * missing;
+        pieces[i].inertia = {own(0, 0), own(1, 1), own(2, 2), own(0, 1), own(0, 2), own(1, 2)};
     }
 }
 
@@ -201,9 +253,11 @@ CutBody cut_body(const BodyDescription& whole, std::uint64_t seed) {
     for (std::size_t i = 0; i < cut.cells.size(); ++i) {
         cut.cells[i].weld(weld_length * longest);
         centers.push_back(mesh_mass(cut.cells[i].mesh(), 1.0).center_of_mass);
-        made.pieces.push_back(piece_of(whole, cut.cells[i], *cut.part_of[i]));
+        made.pieces.push_back(piece_of(whole, cut.cells[i], *cut.part_of[i], cut_rounding * longest));
     }
     share_mass(whole, cut, made.pieces);
+    if (std::ranges::any_of(parts, [](const ConvexPart& part) { return !part.drawn.empty(); }))
+        share_inertia(whole, made.pieces);
     const double root = cube_root(volume);
     const BondRequest request{cut.cells, centers, touch_length * longest, least_bond_area * root * root};
     made.bonds = find_bonds(request);

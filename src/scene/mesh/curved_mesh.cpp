@@ -22,13 +22,14 @@ struct Ring {
     bool joined = false;     // by triangles with the ring below
 };
 
-std::vector<Ring> rings_of(const CurvedShape& shape, int rows) {
+std::vector<Ring> rings_of(const CurvedShape& shape, int rows, int coarser) {
     const double half = 0.5 * shape.height;
+    const int quarter = quarter_rings / coarser;
     std::vector<Ring> rings;
     const auto add_quarter = [&](double radius, double center, bool upper, bool joined) {
-        for (int i = 0; i <= quarter_rings; ++i) {
-            const SinCos angle = sincos(0.5 * pi * (upper ? i : i - quarter_rings) / quarter_rings);
-            const bool pole = i == (upper ? quarter_rings : 0);
+        for (int i = 0; i <= quarter; ++i) {
+            const SinCos angle = sincos(0.5 * pi * (upper ? i : i - quarter) / quarter);
+            const bool pole = i == (upper ? quarter : 0);
             const double cosine = pole ? 0.0 : angle.cos;
             rings.push_back({radius * cosine, center + radius * angle.sin, cosine, angle.sin, joined || i > 0});
         }
@@ -62,13 +63,13 @@ std::vector<Ring> rings_of(const CurvedShape& shape, int rows) {
 
 }  // namespace
 
-std::shared_ptr<const MeshAsset> curved_mesh(const CurvedShape& shape, int rows) {
+std::shared_ptr<const MeshAsset> curved_mesh(const CurvedShape& shape, int rows, int coarser) {
     const bool ellipsoid = shape.kind == CurvedKind::ellipsoid;
     const Vec3 scale = ellipsoid ? shape.radii : Vec3(Vec3::Ones());
-    const int sides = ellipsoid || shape.kind == CurvedKind::capsule ? round_sides : flat_sides;
+    const int sides = (ellipsoid || shape.kind == CurvedKind::capsule ? round_sides : flat_sides) / coarser;
     auto asset = std::make_shared<MeshAsset>();
     std::vector<std::uint32_t> welded;  // by vertex for drawing: its index in the mesh
-    const std::vector<Ring> rings = rings_of(shape, rows);
+    const std::vector<Ring> rings = rings_of(shape, rows, coarser);
     for (std::size_t k = 0; k < rings.size(); ++k) {
         const Ring& ring = rings[k];
         const bool pole = ring.radius == 0.0;
