@@ -371,6 +371,28 @@ TEST(Water, AnEelSwimsHeadFirst) {
     EXPECT_LT(std::abs(swum.z()), 0.3 * swum.x());
 }
 
+TEST(Water, APaddleWheelDrivesItsBoat) {
+    const SceneDescription harbor = load_scene(TUMBLE_SOURCE_DIR "/assets/scenes/harbor.toml");
+    for (const double turns : {1.0, -1.0}) {
+        SceneDescription scene = harbor;
+        scene.water->waves.clear();
+        scene.bodies.clear();
+        for (const BodyDescription& body : harbor.bodies)
+            if (body.name == "steamer" || body.name == "wheel") scene.bodies.push_back(body);
+        scene.cords.clear();
+        ASSERT_EQ(scene.joints.size(), 1u);
+        JointDescription& axle = scene.joints[0];
+        axle.first = 0;
+        axle.second = 1;
+        ASSERT_TRUE(axle.turn[0].motor.has_value());
+        axle.turn[0].motor->speed = turns * axle.turn[0].motor->speed.value();
+        const double start = scene.bodies[0].position.x();
+        World world(scene);
+        frames(world, 240);
+        EXPECT_GT(turns * (state(world).center_of_mass.x() - start), 0.5);
+    }
+}
+
 // A board breaks on a rock above the water; its pieces float as boards of their own.
 TEST(Water, PiecesFloatByTheirOwnVolumes) {
     const SceneDescription scene = parse_scene(
