@@ -96,9 +96,8 @@ EnergyTable::EnergyTable(const std::string& file) {
     guarded([&] { state_ = std::make_unique<State>(file, false, false, false); });
 }
 EnergyTable::EnergyTable(const std::string& file, const Scene& scene) {
-    guarded([&] {
-        state_ = std::make_unique<State>(file, scene.joint_count() > 0, scene.breakable(), scene.has_water());
-    });
+    guarded(
+        [&] { state_ = std::make_unique<State>(file, scene.joint_count() > 0, scene.breakable(), scene.has_water()); });
 }
 EnergyTable::~EnergyTable() = default;
 EnergyTable::EnergyTable(EnergyTable&&) noexcept = default;

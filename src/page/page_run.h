@@ -29,9 +29,9 @@ struct BodyEvent {
 };
 
 struct BodyRecord {
-    std::vector<BodySample> samples;  // by frame; a single one of a fixed body
-    std::vector<BodyEvent> events;    // in order of time
-    bool all_events = true;           // false: there were more than are kept
+    std::vector<BodySample> samples;        // by frame; a single one of a fixed body
+    std::vector<BodyEvent> events;          // in order of time
+    bool all_events = true;                 // false: there were more than are kept
     std::vector<std::int64_t> absent_from;  // frames where it vanishes and appears in turn (BodyState::absent)
 };
 

@@ -122,8 +122,8 @@ struct World::State {
     /// The log and its records are apart: a world without a log skips those of another.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [settings, clock, steps, set, joints, joined, rolling, placed, woken, forces, detection, fracture, impacts,
-               hits, contact_solver, motion, sleep, check, log, totals, records, notes, potential_at_start,
+        auto& [settings, clock, steps, set, joints, joined, rolling, placed, woken, forces, detection, fracture,
+               impacts, hits, contact_solver, motion, sleep, check, log, totals, records, notes, potential_at_start,
                water_at_start, asleep, pool] = self;
         archive.rebuilt(settings, clock);
         archive.expect_bodies(set.bodies.size());
@@ -163,9 +163,9 @@ void World::State::run_stages(const StepContext& step) {
     forces.wake(step);
     begin_joints(step);
     if (sleep.changes() + joints.changes() != changes) detection.out_of_date();
-    detection.update(step, *motion);   // pairs: broad phase, exact manifolds, islands
+    detection.update(step, *motion);            // pairs: broad phase, exact manifolds, islands
     fracture.strike(step, detection, *motion);  // blows that break a body
-    impacts.resolve(step, detection);  // v_rel < 0: impulses with restitution (notes eq. 20)
+    impacts.resolve(step, detection);           // v_rel < 0: impulses with restitution (notes eq. 20)
     placed.clear(set.bodies);
     joined.decide(step, detection);   // joined bodies: their way in this step; those that touch nothing move
     rolling.decide(step, detection);  // curved bodies on one point

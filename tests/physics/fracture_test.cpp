@@ -26,7 +26,8 @@ std::vector<std::byte> bytes_of(const Snapshot& snapshot) {
 
 std::size_t pieces_of(const Snapshot& snapshot, const SceneDescription& scene) {
     std::size_t shown = 0;
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i) shown += scene.bodies[i].piece_of && !snapshot.bodies[i].absent;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+        shown += scene.bodies[i].piece_of && !snapshot.bodies[i].absent;
     return shown;
 }
 
@@ -57,7 +58,8 @@ TEST(Fracture, ABlowKeepsMomentumAndTheBooksOfEnergy) {
             const SceneDescription scene = scene_of(pane_and_ball(
                 "impacts = \"" + mode + "\"\nintegrator = \"exact\"\n",
                 "shape = { type = \"box\", size = [0.6, 0.5, 0.01] }\nangular_velocity = [0.4, -0.3, 0.2]\n"
-                "fracture = { cells = 20, seed = " + std::to_string(seed) + " }\n",
+                "fracture = { cells = 20, seed = " +
+                    std::to_string(seed) + " }\n",
                 "position = [" + std::to_string(0.02 * seed - 0.1) + ", 0.04, 0.3]\nvelocity = [0.2, -0.1, -9]\n"));
             World world(scene);
             world.record_energy();
@@ -85,7 +87,8 @@ TEST(Fracture, ABlowKeepsAngularMomentum) {
         const SceneDescription scene = scene_of(pane_and_ball(
             "impacts = \"exact\"\n",
             "shape = { type = \"box\", size = [0.6, 0.5, 0.01] }\nangular_velocity = [0.4, -0.3, 0.2]\n"
-            "fracture = { cells = 20, seed = " + std::to_string(seed) + " }\n",
+            "fracture = { cells = 20, seed = " +
+                std::to_string(seed) + " }\n",
             "position = [" + std::to_string(0.02 * seed - 0.1) + ", 0.04, 0.3]\nvelocity = [0.2, -0.1, -9]\n"));
         World world(scene);
         const Measurement start = world.measure();
@@ -95,16 +98,16 @@ TEST(Fracture, ABlowKeepsAngularMomentum) {
     }
 }
 
-// A ball through a pane that the world holds: the work of breaking is the toughness times the new surface, and the pieces
-// take what they carry away.
+// A ball through a pane that the world holds: the work of breaking is the toughness times the new surface, and the
+// pieces take what they carry away.
 TEST(Fracture, ABallLosesTheEnergyOfTheSurfaceAndOfThePieces) {
     for (const std::string mode : {"stepped", "exact"}) {
-        const SceneDescription scene = scene_of(pane_and_ball(
-            "impacts = \"" + mode + "\"\nintegrator = \"exact\"\n",
-            "type = \"fixed\"\n"
-            "shape = { type = \"box\", size = [0.6, 0.5, 0.01] }\n"
-            "fracture = { cells = 24, seed = 5, held = [\"-x\", \"+x\", \"-y\", \"+y\"] }\n",
-            fast_ball));
+        const SceneDescription scene =
+            scene_of(pane_and_ball("impacts = \"" + mode + "\"\nintegrator = \"exact\"\n",
+                                   "type = \"fixed\"\n"
+                                   "shape = { type = \"box\", size = [0.6, 0.5, 0.01] }\n"
+                                   "fracture = { cells = 24, seed = 5, held = [\"-x\", \"+x\", \"-y\", \"+y\"] }\n",
+                                   fast_ball));
         World world(scene);
         world.record_energy();
         const double before = world.measure().kinetic;
@@ -126,10 +129,12 @@ TEST(Fracture, StrengthDecides) {
     const auto speed = [](const std::string& strength, const std::string& toughness) {
         const SceneDescription scene = scene_of(
             "[simulation]\ngravity = [0, 0, 0]\nintegrator = \"exact\"\n"
-            "[[body]]\ntype = \"fixed\"\ndensity = 0.01\nstrength = " + strength + "\ntoughness = " + toughness +
+            "[[body]]\ntype = \"fixed\"\ndensity = 0.01\nstrength = " +
+            strength + "\ntoughness = " + toughness +
             "\nstiffness = 1e6\nshape = { type = \"box\", size = [0.6, 0.5, 0.01] }\nfracture = { cells = 24 }\n"
             "[[body]]\nname = \"ball\"\nshape = { type = \"sphere\", radius = 0.05 }\ndensity = 7800\n"
-            "restitution = 1\n" + fast_ball);
+            "restitution = 1\n" +
+            fast_ball);
         World world(scene);
         for (int n = 0; n < 12; ++n) world.advance_frame();
         return world.snapshot().bodies[1].velocity.z();
@@ -159,9 +164,11 @@ TEST(Fracture, AFallingChimneyBreaksAThirdUpAtItsAngle) {
     const double angle = 0.257684;
     for (const std::string mode : {"stepped", "exact"}) {
         const SceneDescription scene = scene_of(
-            "[simulation]\nimpacts = \"" + mode + "\"\nintegrator = \"exact\"\n"
+            "[simulation]\nimpacts = \"" + mode +
+            "\"\nintegrator = \"exact\"\n"
             "[[body]]\ndensity = 2000\nstrength = 1e5\nshear_strength = 1e9\nstiffness = 5e9\nposition = [0, 1.5, 0]\n"
-            "velocity = [0.03, 0, 0]\nangular_velocity = [0, 0, -0.02]\nshape = { type = \"box\", size = [0.1, 3, 0.1] }\n"
+            "velocity = [0.03, 0, 0]\nangular_velocity = [0, 0, -0.02]\nshape = { type = \"box\", size = [0.1, 3, 0.1] "
+            "}\n"
             "fracture = { cells = 30, pattern = \"slabs\" }\n"
             "[[joint]]\ntype = \"hinge\"\nbodies = [\"world\", \"0\"]\nanchor = [0, 0, 0]\naxis = [0, 0, 1]\n");
         World world(scene);
@@ -190,7 +197,9 @@ TEST(Fracture, ASpinningBarBurstsInTheMiddle) {
         const SceneDescription scene = scene_of(
             "[simulation]\ngravity = [0, 0, 0]\nintegrator = \"exact\"\n"
             "[[body]]\ndensity = 2500\nstrength = 30e6\nshear_strength = 1e12\nstiffness = 70e9\n"
-            "angular_velocity = [0, 0, " + std::to_string(share * limit) + "]\n"
+            "angular_velocity = [0, 0, " +
+            std::to_string(share * limit) +
+            "]\n"
             "shape = { type = \"box\", size = [1, 0.001, 0.001] }\nfracture = { cells = 20, pattern = \"slabs\" }\n");
         const std::vector<BreakRecord> breaks = breaks_of(scene, 1);
         EXPECT_EQ(breaks.empty(), share < 1.0);
@@ -200,7 +209,8 @@ TEST(Fracture, ASpinningBarBurstsInTheMiddle) {
     }
 }
 
-// A bar on two supports, loaded in the middle by a force that is as large as 4 strength W / L: m g L / 8 more by itself.
+// A bar on two supports, loaded in the middle by a force that is as large as 4 strength W / L: m g L / 8 more by
+// itself.
 TEST(Fracture, ABridgeBreaksUnderALoad) {
     const double strength = 1e6, width = 0.1, length = 2.0, modulus = width * width * width / 6.0;
     const double own = 200.0 * width * width * 2.2 * 9.81;  // N, beyond the supports too
@@ -214,7 +224,9 @@ TEST(Fracture, ABridgeBreaksUnderALoad) {
             "rotation = { axis = [1, 0, 0], angle = 90 }\nposition = [-1, 0.98, 0]\n"
             "[[body]]\ntype = \"fixed\"\nshape = { type = \"cylinder\", radius = 0.02, height = 0.3 }\n"
             "rotation = { axis = [1, 0, 0], angle = 90 }\nposition = [1, 0.98, 0]\n"
-            "[[force]]\nbody = \"0\"\npoint = [0, 0, 0]\nforce = [0, " + std::to_string(-share * force) + ", 0]\n"
+            "[[force]]\nbody = \"0\"\npoint = [0, 0, 0]\nforce = [0, " +
+            std::to_string(-share * force) +
+            ", 0]\n"
             "start = 0.5\n");
         const std::vector<BreakRecord> breaks = breaks_of(scene, 60);
         EXPECT_EQ(breaks.empty(), share < 1.0) << share;
@@ -225,9 +237,9 @@ TEST(Fracture, ABridgeBreaksUnderALoad) {
 
 TEST(Fracture, ThreadsAndCheckpointsDoNotMatter) {
     for (const std::string mode : {"stepped", "exact"}) {
-        const SceneDescription scene = scene_of(
-            pane_and_ball("impacts = \"" + mode + "\"\n", plain_pane, fast_ball) +
-            "[[body]]\ntype = \"fixed\"\nshape = { type = \"plane\", normal = [0, 0, 1], offset = -0.5 }\n");
+        const SceneDescription scene =
+            scene_of(pane_and_ball("impacts = \"" + mode + "\"\n", plain_pane, fast_ball) +
+                     "[[body]]\ntype = \"fixed\"\nshape = { type = \"plane\", normal = [0, 0, 1], offset = -0.5 }\n");
         World one(scene, 1), eight(scene, 8);
         std::vector<std::vector<std::byte>> frames, states;
         bool whole_at_first = false;
@@ -280,7 +292,9 @@ TEST(Fracture, PiecesBreakAsOftenAsTheyMay) {
         const SceneDescription scene = scene_of(
             "[[body]]\ndensity = 2400\nstrength = 2e6\nstiffness = 60e9\ntoughness = 1\nposition = [0, 1.5, 0]\n"
             "rotation = { axis = [1, 0, 0.3], angle = 65 }\nshape = { type = \"box\", size = [0.5, 0.02, 0.4] }\n"
-            "fracture = { cells = 40" + depth + " }\n"
+            "fracture = { cells = 40" +
+            depth +
+            " }\n"
             "[[body]]\ntype = \"fixed\"\nshape = { type = \"plane\" }\n");
         std::set<double> all;
         for (const BreakRecord& r : breaks_of(scene, 120)) all.insert(r.time);

@@ -16,8 +16,7 @@ bool same_bits(const Vector& a, const Vector& b) {
 }
 
 bool same_pose_bits(const BodyState& a, const BodyState& b) {
-    return a.absent == b.absent && same_bits(a.origin, b.origin) &&
-           same_bits(a.center_of_mass, b.center_of_mass) &&
+    return a.absent == b.absent && same_bits(a.origin, b.origin) && same_bits(a.center_of_mass, b.center_of_mass) &&
            same_bits(a.orientation.coeffs(), b.orientation.coeffs());
 }
 

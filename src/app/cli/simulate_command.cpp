@@ -473,8 +473,9 @@ void add_simulate(Command& command) {
         ->transform(or_standard_output())
         ->type_name("J.csv");
     command
-        .add_option("--breaks", c.tables.breaks,
-                    "CSV or .npz: one row per bond of a breakable body that failed, with its load; - is\nstandard output")
+        .add_option(
+            "--breaks", c.tables.breaks,
+            "CSV or .npz: one row per bond of a breakable body that failed, with its load; - is\nstandard output")
         ->check(file_name("csv npz"))
         ->transform(or_standard_output())
         ->type_name("B.csv");

@@ -260,7 +260,8 @@ void AmbientOcclusion::State::update_body(std::size_t body, std::uint8_t visible
     const Eigen::Vector3f center = middle.cast<float>();
     finder.find(center, float(proxy.bound_radius), found);
     // A body does not occlude itself, nor others from behind a plane.
-    std::erase_if(found, [&](std::size_t i) { return same_piece(occluders[i].body, body) || behind_plane(occluders[i]); });
+    std::erase_if(found,
+                  [&](std::size_t i) { return same_piece(occluders[i].body, body) || behind_plane(occluders[i]); });
     near_planes.clear();
     for (const PlaneInView& plane : planes)
         if (plane.normal.dot(center) + plane.height < proxy.bound_radius + 2.0 * proxy.ao_radius)

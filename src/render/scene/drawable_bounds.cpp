@@ -68,9 +68,8 @@ PerDrawable<DrawableBounds> make_drawables(const RenderScene& scene, const Snaps
     PerDrawable<DrawableBounds> drawables;
     drawables.bodies.reserve(scene.bodies.size());
     for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-        drawables.bodies.push_back(snapshot.bodies[i].absent
-                                       ? DrawableBounds{}
-                                       : bounds_of_body(scene.bodies[i], snapshot.bodies[i], view));
+        drawables.bodies.push_back(
+            snapshot.bodies[i].absent ? DrawableBounds{} : bounds_of_body(scene.bodies[i], snapshot.bodies[i], view));
     for (const CordDescription& cord : scene.cords) drawables.cords.push_back(bounds_of_cord(cord, snapshot, view));
     return drawables;
 }

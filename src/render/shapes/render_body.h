@@ -39,9 +39,9 @@ struct RenderBody {
     glm::vec4 glow{0.0f, 0.0f, 0.0f, 1.0f};  // Instance::glow
     bool large_receiver = false;             // a large receiver, see large_receivers.h
     static constexpr std::size_t no_whole = SIZE_MAX;
-    std::size_t whole = no_whole;  // the body that it is a piece of
-    bool fixed = false;                      // never moves
-    bool buried = false;                     // and a fixed plane hides it: nothing is fitted to it
+    std::size_t whole = no_whole;    // the body that it is a piece of
+    bool fixed = false;              // never moves
+    bool buried = false;             // and a fixed plane hides it: nothing is fitted to it
     bool without_occlusion = false;  // without AO: too large for its number of texels, which would give wrong values
     std::ptrdiff_t lightmap = -1;    // index into RenderScene::lightmaps; -1: none. A mesh with a lightmap has charts
 

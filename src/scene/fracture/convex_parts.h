@@ -20,8 +20,8 @@ struct ConvexPart {
     bool visible;
 };
 
-/// Curved shapes as polyhedra with corners on their surface, and finer ones to be drawn. Throws InputError, with the remedy, for shapes that are no union of
-/// convex parts beside each other.
+/// Curved shapes as polyhedra with corners on their surface, and finer ones to be drawn. Throws InputError, with the
+/// remedy, for shapes that are no union of convex parts beside each other.
 std::vector<ConvexPart> convex_parts(const BodyDescription& body);
 
 }  // namespace tumble

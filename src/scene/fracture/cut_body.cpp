@@ -191,8 +191,8 @@ void share_mass(const BodyDescription& whole, const Cut& cut, std::vector<BodyDe
     }
 }
 
-/// Polyhedra of curved shapes lack matter at the surface: its moments are shared by mass, so that a body that comes apart
-/// keeps its angular momentum.
+/// Polyhedra of curved shapes lack matter at the surface: its moments are shared by mass, so that a body that comes
+/// apart keeps its angular momentum.
 void share_inertia(const BodyDescription& whole, std::vector<BodyDescription>& pieces) {
     std::vector<MassProperties> parts;
     for (const BodyDescription& piece : pieces) parts.push_back(mass_properties(piece));

@@ -14,8 +14,9 @@
 
 namespace tumble {
 
-// -- [simulation], [output], [light], [wind] and [water]. For the first two, the file and the command line are merged first,
-// each value with its source, and checked together after that: a step that fits the file's fps may not fit that of
+// -- [simulation], [output], [light], [wind] and [water]. For the first two, the file and the command line are merged
+// first, each value with its source, and checked together after that: a step that fits the file's fps may not fit that
+// of
 // --fps.
 
 /// Reads both tables (either may be missing) with the overrides.

@@ -31,12 +31,12 @@ struct Body {
     IntegratorKind integrator = IntegratorKind::symplectic_euler;
     bool spherical_top = false;  // equal moments, as of a ball or a cube: the tensor is the same in every frame
     bool asleep = false;
-    bool flying = false;   // ballistic, impacts = "exact": on a trajectory in closed form, not stepped
-    bool jointed = false;  // has a joint that holds: it moves with the bodies joined to it
-    PairRules pair_rules;  // of the scene, at hand where two bodies meet
-    bool placed = false;   // moves to a known end in this step (PlacedBodies)
-    bool flew = false;     // moved in the last step by an integrator of higher order than the two Euler methods
-    bool absent = false;   // a piece that has not broken off, or a body in pieces: it has no effect (BreakableBody)
+    bool flying = false;     // ballistic, impacts = "exact": on a trajectory in closed form, not stepped
+    bool jointed = false;    // has a joint that holds: it moves with the bodies joined to it
+    PairRules pair_rules;    // of the scene, at hand where two bodies meet
+    bool placed = false;     // moves to a known end in this step (PlacedBodies)
+    bool flew = false;       // moved in the last step by an integrator of higher order than the two Euler methods
+    bool absent = false;     // a piece that has not broken off, or a body in pieces: it has no effect (BreakableBody)
     bool breakable = false;  // has bonds that may break
     double mass = 0.0, inverse_mass = 0.0;  // kg, 1/kg; the inverse is 0 for fixed and kinematic bodies (after eq. 20)
     double radius = 0.0;                    // m, about the center of mass; infinity for a half-space
@@ -89,15 +89,16 @@ struct Body {
     void derive_velocities();
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [type, integrator, spherical_top, asleep, flying, jointed, pair_rules, placed, flew, absent, breakable, mass,
-               inverse_mass, radius, restitution, friction, drag_area, collider, track, inertia_body, inverse_inertia_body,
-               principal_inertia, principal_axes, center_of_mass, gravity_scale, rolling_friction, spinning_friction,
-               layers, collides_with, name, position, orientation, rotation, momentum, angular_momentum, velocity,
-               angular_velocity, inverse_inertia, gyration, correction_velocity, correction_angular_velocity] = self;
-        archive.rebuilt(absent, breakable, type, integrator, spherical_top, pair_rules, mass, inverse_mass, radius, restitution, friction,
-                        drag_area, collider, track, inertia_body, inverse_inertia_body, principal_inertia,
-                        principal_axes, center_of_mass, gravity_scale, rolling_friction, spinning_friction, layers,
-                        collides_with, name);
+        auto& [type, integrator, spherical_top, asleep, flying, jointed, pair_rules, placed, flew, absent, breakable,
+               mass, inverse_mass, radius, restitution, friction, drag_area, collider, track, inertia_body,
+               inverse_inertia_body, principal_inertia, principal_axes, center_of_mass, gravity_scale, rolling_friction,
+               spinning_friction, layers, collides_with, name, position, orientation, rotation, momentum,
+               angular_momentum, velocity, angular_velocity, inverse_inertia, gyration, correction_velocity,
+               correction_angular_velocity] = self;
+        archive.rebuilt(absent, breakable, type, integrator, spherical_top, pair_rules, mass, inverse_mass, radius,
+                        restitution, friction, drag_area, collider, track, inertia_body, inverse_inertia_body,
+                        principal_inertia, principal_axes, center_of_mass, gravity_scale, rolling_friction,
+                        spinning_friction, layers, collides_with, name);
         archive.scratch(placed);
         archive.keep(asleep, flying, jointed, flew, position, orientation, rotation, momentum, angular_momentum,
                      velocity, angular_velocity, inverse_inertia, gyration, correction_velocity,

@@ -117,7 +117,8 @@ void Blow::add_target(std::uint32_t entry) {
 }
 
 Blow::Target* Blow::target(std::uint32_t entry) {
-    const auto found = std::find_if(targets_.begin(), targets_.end(), [&](const Target& t) { return t.entry == entry; });
+    const auto found =
+        std::find_if(targets_.begin(), targets_.end(), [&](const Target& t) { return t.entry == entry; });
     return found == targets_.end() ? nullptr : &*found;
 }
 
@@ -307,7 +308,8 @@ void Blow::finish(Trial& trial, const std::vector<Contact>& stopped) {
                  wanted = product(trial.island, trial.free, trial.free) - 2.0 * surface_;
     double share = 1.0;
     if (surface_ > 0.0 && square > 0.0)
-        share = std::clamp((std::sqrt(std::max(0.0, half * half + square * (wanted - rigid))) - half) / square, 0.0, 1.0);
+        share =
+            std::clamp((std::sqrt(std::max(0.0, half * half + square * (wanted - rigid))) - half) / square, 0.0, 1.0);
     for (std::size_t k = 0; k < change.size(); ++k)
         result_.velocities.push_back({trial.rigid[k].velocity + share * change[k].velocity,
                                       trial.rigid[k].angular_velocity + share * change[k].angular_velocity});

@@ -74,8 +74,7 @@ private:
     void put_back();
     Trial part(const std::vector<BodyVelocity>& rigid);
     void set_contacts(Trial& trial) const;
-    double product(const Island& island, const std::vector<BodyVelocity>& l,
-                   const std::vector<BodyVelocity>& r) const;
+    double product(const Island& island, const std::vector<BodyVelocity>& l, const std::vector<BodyVelocity>& r) const;
     /// `stopped`: the contacts on the wholes, with the impulses that stop them.
     void finish(Trial& trial, const std::vector<Contact>& stopped);
 

@@ -28,8 +28,7 @@ BreakableBodies::BreakableBodies(const SceneDescription& scene, std::span<const 
         for (const bool second : {false, true}) {
             const std::uint32_t i = second ? joints[k].b : joints[k].a;
             if (i == Joint::world || owner_[i] == none) continue;
-            const Vec3 place_of_anchor =
-                (second ? joints[k].anchor_b : joints[k].anchor_a) + bodies[i].center_of_mass;
+            const Vec3 place_of_anchor = (second ? joints[k].anchor_b : joints[k].anchor_a) + bodies[i].center_of_mass;
             anchors_.push_back({k, second, owner_[i], list_[owner_[i]].cell_at(i, place_of_anchor), place_of_anchor});
         }
 }

@@ -26,7 +26,8 @@ public:
     const BreakableBody& operator[](std::uint32_t entry) const { return list_[entry]; }
     /// The entry that a body belongs to, as the whole or as a cell; or none.
     std::uint32_t entry_of(std::uint32_t body) const { return owner_.empty() ? none : owner_[body]; }
-    /// The body that moves a body: for a body in pieces its first piece, for a cell its piece, otherwise the body itself.
+    /// The body that moves a body: for a body in pieces its first piece, for a cell its piece, otherwise the body
+    /// itself.
     std::uint32_t mover_of(std::uint32_t body) const;
 
     /// Completes the state of a body, which has that of its mover: of a cell its share of a piece.
@@ -56,7 +57,7 @@ private:
         Vec3 place;  // m, body frame, from the body's origin
     };
 
-    std::vector<BreakableBody> list_;  // in the order of the scene
+    std::vector<BreakableBody> list_;   // in the order of the scene
     std::vector<std::uint32_t> owner_;  // by body
     std::vector<std::uint32_t> cell_;   // by body: of the bodies of cells
     std::vector<Anchor> anchors_;

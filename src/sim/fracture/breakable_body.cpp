@@ -25,8 +25,9 @@ const Polyhedron& hull_in(const CollisionShape& collider) {
     return *std::get<std::shared_ptr<const Polyhedron>>(collider);
 }
 
-/// Pieces collide as shapes that are smaller by this share: a piece without clearance jams in its hole, as a rigid wedge,
-/// as soon as it has turned by rounding. Not fitted: 0.1 mm of a hand's breadth. Related test: Fracture.ABallGoesThrough.
+/// Pieces collide as shapes that are smaller by this share: a piece without clearance jams in its hole, as a rigid
+/// wedge, as soon as it has turned by rounding. Not fitted: 0.1 mm of a hand's breadth. Related test:
+/// Fracture.ABallGoesThrough.
 constexpr double clearance = 2e-3;
 
 CollisionShape smaller(const CollisionShape& collider) {
@@ -46,7 +47,8 @@ double outside(const Polyhedron& hull, const Vec3& point) {
 BondGraph graph_of(const FractureDescription& fracture, std::span<const std::uint32_t> own,
                    const std::vector<Body>& bodies) {
     std::vector<MassProperties> cells;
-    for (const std::uint32_t i : own) cells.push_back({bodies[i].mass, bodies[i].center_of_mass, bodies[i].inertia_body});
+    for (const std::uint32_t i : own)
+        cells.push_back({bodies[i].mass, bodies[i].center_of_mass, bodies[i].inertia_body});
     return BondGraph(fracture, std::move(cells));
 }
 

@@ -29,8 +29,8 @@ public:
     BondGraph& graph() { return graph_; }
     std::size_t cells() const { return cells_.size(); }
     std::uint32_t whole() const { return whole_; }
-    double blow_time() const { return blow_time_; }               // s
-    const Vec3& center_of_mass() const { return center_; }        // m, of the whole, from its origin
+    double blow_time() const { return blow_time_; }         // s
+    const Vec3& center_of_mass() const { return center_; }  // m, of the whole, from its origin
     /// The body of a cell, and the body that moves the cell now.
     std::uint32_t body_of(std::uint32_t cell) const { return own_[cell]; }
     std::uint32_t piece_of(std::uint32_t cell) const { return piece_[cell]; }
@@ -53,9 +53,9 @@ public:
 
     /// A body that has come apart.
     struct Parting {
-        Body whole;                          // as it was
-        std::uint32_t index = 0;             // of the whole
-        std::vector<std::uint32_t> pieces;   // bodies; one of them may have the index of the whole
+        Body whole;                         // as it was
+        std::uint32_t index = 0;            // of the whole
+        std::vector<std::uint32_t> pieces;  // bodies; one of them may have the index of the whole
     };
     /// The piece that is nearest to a point, which all pieces have in the same place of the body.
     std::uint32_t piece_at(const Vec3& point) const;
@@ -71,7 +71,8 @@ public:
     static void visit(Archive& archive, Self& self) {
         auto& [description, graph, whole, own, piece, pieces, generation, cut, cells, type, track, center, blow_time,
                in_pieces] = self;
-        archive.rebuilt(description, graph, whole, own, piece, pieces, cells, type, track, center, blow_time, in_pieces);
+        archive.rebuilt(description, graph, whole, own, piece, pieces, cells, type, track, center, blow_time,
+                        in_pieces);
         for (auto& times : generation) archive.count(times);
         for (auto& failed : cut) archive.between(std::uint8_t(0), failed, std::uint8_t(1));
     }
@@ -101,8 +102,8 @@ private:
     bool in_pieces_ = false;
 };
 
-/// The bonds that fail first, ascending: from a utilization of 1 on (by bond), and no less than all bonds of the same two
-/// cells. A crack relieves what is next to it.
+/// The bonds that fail first, ascending: from a utilization of 1 on (by bond), and no less than all bonds of the same
+/// two cells: a crack relieves its neighborhood.
 std::vector<std::uint32_t> failing_first(const BondGraph& graph, std::span<const double> utilization);
 
 /// The bodies that vanished, appeared or have another shape, ascending.

@@ -20,8 +20,8 @@ struct CellForce {
 };
 
 /// The forces of one manifold, along `into` (unit, into the piece), on its cells. Three points or more with a pressure
-/// that is linear over the faces between them, and nowhere negative, act on all of these faces; others on the cells that
-/// are nearest to the points. The sum and the moments are the same.
+/// that is linear over the faces between them, and nowhere negative, act on all of these faces; others on the cells
+/// that are nearest to the points. The sum and the moments are the same.
 void spread_load(const BreakableBody& body, std::uint32_t piece, const Vec3& into, std::span<const PointForce> points,
                  std::vector<CellForce>& forces);
 

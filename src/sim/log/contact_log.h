@@ -88,8 +88,8 @@ public:
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [detail, scene_index, origin, gravity, sums, asleep, accounts, struck, friction, handed_over,
-               surface, records] = self;
+        auto& [detail, scene_index, origin, gravity, sums, asleep, accounts, struck, friction, handed_over, surface,
+               records] = self;
         archive.rebuilt(detail, scene_index, origin, gravity, struck);
         archive.keep(asleep, records.energy);
         archive.scratch(sums, accounts, friction, handed_over, surface);
@@ -159,8 +159,8 @@ private:
     std::vector<Account> accounts_;        // by body
     std::vector<std::size_t> struck_;      // by body: its entry in the records, of the impact that is added
     double friction_ = 0.0;                // J, lost in this frame
-    double handed_over_ = 0.0;  // J, lost in this frame by bodies that have broken since
-    double surface_ = 0.0;      // J, in surfaces of this frame
+    double handed_over_ = 0.0;             // J, lost in this frame by bodies that have broken since
+    double surface_ = 0.0;                 // J, in surfaces of this frame
     ContactRecords records_;
 };
 

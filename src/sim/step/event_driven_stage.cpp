@@ -14,10 +14,9 @@ std::int64_t EventDrivenStage::run_events(const StepContext& step, std::int64_t 
     events_.start_from(step.set.old_velocities);
     events_.join(step.joints, bodies, step.forces.field());
     if (!step.fracture.empty())
-        events_.break_by([&](const Island& island, const std::vector<Contact>& contacts,
-                             const ImpactSettings& settings, const ImpactTime& when) {
-            return step.fracture.strike(island, contacts, settings, when, step);
-        });
+        events_.break_by(
+            [&](const Island& island, const std::vector<Contact>& contacts, const ImpactSettings& settings,
+                const ImpactTime& when) { return step.fracture.strike(island, contacts, settings, when, step); });
     const std::int64_t reached = events_.run(bodies, step.sleep, step.forces.field(), until);
     events_.place(bodies, reached);
     step.check.examine(step.set.awake, bodies, step.pool);

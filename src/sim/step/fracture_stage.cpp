@@ -18,7 +18,6 @@ namespace {
 /// has left, are not examined again. Limits the cost of resting bodies.
 constexpr double changed_load = 0.01;
 
-
 }  // namespace
 
 // Only bodies that break are resolved here: each time the contacts are found again, of one body less.
@@ -54,8 +53,7 @@ bool FractureStage::strike_one(const StepContext& step, ContactDetection& detect
         for (const std::uint32_t m : islands.manifolds(k))
             add_contacts(detection.manifolds()[m], step.set.bodies, contacts);
         for (std::uint32_t i = 0; i < contacts.size(); ++i) island.contacts.push_back(i);
-        Blow blow(island, contacts, step.set.bodies, bodies_, step.joints.joints(),
-                  ImpactStage::settings(step));
+        Blow blow(island, contacts, step.set.bodies, bodies_, step.joints.joints(), ImpactStage::settings(step));
         if (!blow.resolve()) continue;
         take(blow.result(), step, step.impact_time());
         exchange(changed_bodies(blow.result().partings), step, detection);
@@ -173,8 +171,7 @@ void FractureStage::yield(const StepContext& step, ContactDetection& detection, 
         if (!graph) continue;
         const std::size_t before = partings.size();
         for (BreakableBody::Parting& parting : bodies_[entry].part(std::move(*graph), step.set.bodies)) {
-            if (step.log)
-                step.log->hand_over(parting.index, parting.whole.dynamic(), parting.pieces, step.set.bodies);
+            if (step.log) step.log->hand_over(parting.index, parting.whole.dynamic(), parting.pieces, step.set.bodies);
             partings.push_back(std::move(parting));
         }
         last_[entry] = {};
@@ -196,7 +193,8 @@ bool FractureStage::changed(const std::vector<Load>& now, const Examined& last, 
     for (std::size_t i = 0; i < now.size(); ++i) {
         const Load &a = last.loads[i], &b = now[i];
         sum += b.force.norm() + b.torque.norm() / size;
-        change += (b.force - a.force).norm() + ((b.torque - a.torque).norm() + b.force.norm() * (b.point - a.point).norm()) / size;
+        change += (b.force - a.force).norm() +
+                  ((b.torque - a.torque).norm() + b.force.norm() * (b.point - a.point).norm()) / size;
     }
     return change > changed_load * std::max(0.0, 1.0 - last.utilization) * sum;
 }
@@ -217,7 +215,7 @@ std::optional<BondGraph> FractureStage::examine(std::uint32_t entry, std::span<c
         const Body& piece = bodies[i];
         if (!may_break(i)) continue;
         size = std::max(size, piece.radius);
-        // Rotation, as a force at the rim; and the weight of what is held.
+        // Rotation as a force at the rim, and the weight of held pieces.
         Load own;
         if (piece.dynamic())
             own.force = piece.mass * piece.radius * piece.angular_velocity.norm() *
@@ -319,7 +317,8 @@ void FractureStage::exchange(std::span<const std::uint32_t> changed, const StepC
 void FractureStage::move_forces(const StepContext& step) const {
     for (std::uint32_t i = 0; i < step.set.bodies.size() && step.forces.field().has_water(); ++i) {
         const Body& body = step.set.bodies[i];
-        if (bodies_.entry_of(i) != BreakableBodies::none && body.dynamic() && !body.absent) step.forces.reshape(i, body);
+        if (bodies_.entry_of(i) != BreakableBodies::none && body.dynamic() && !body.absent)
+            step.forces.reshape(i, body);
     }
     const std::vector<std::uint32_t> pushed(step.forces.field().pushed().begin(), step.forces.field().pushed().end());
     for (const std::uint32_t i : pushed) {

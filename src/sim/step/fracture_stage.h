@@ -1,5 +1,5 @@
-// Breakable bodies in a step: blows that part them, with the impulses of the blow; and loads of contacts and joints that
-// last.
+// Breakable bodies in a step: blows that part them, with the impulses of the blow; and loads of contacts and joints
+// that last.
 #pragma once
 
 #include "sim/fracture/blow.h"
@@ -31,14 +31,14 @@ public:
     /// Resolves the blows of the step that break a body; others are left to the impacts.
     void strike(const StepContext& step, ContactDetection& detection, MotionStage& motion);
 
-    /// The same for an impact at its own time; null where nothing breaks. The event-driven motion knows the pieces then,
-    /// and the rest of the world after finish_events().
+    /// The same for an impact at its own time; null where nothing breaks. The event-driven motion knows the pieces
+    /// then, and the rest of the world after finish_events().
     const BlowResult* strike(const Island& island, const std::vector<Contact>& contacts, const ImpactSettings& settings,
                              const ImpactTime& when, const StepContext& step);
     void finish_events(const StepContext& step, ContactDetection& detection);
 
-    /// `step`: the coming one. Parts the bodies that the contacts and joints of the last step, and their own rotation, load beyond their strength. They
-    /// go on as they moved.
+    /// `step`: the coming one. Parts the bodies that the contacts and joints of the last step, and their own rotation,
+    /// load beyond their strength. They go on as they moved.
     void yield(const StepContext& step, ContactDetection& detection, MotionStage& motion);
 
     /// The bonds that failed in the frame.
@@ -68,7 +68,8 @@ private:
             archive.keep(force, torque, point);
         }
     };
-    /// The loads of a body when its bonds were last examined, with its rotation, and how near the weakest was to failing.
+    /// The loads of a body when its bonds were last examined, with its rotation, and how near the weakest was to
+    /// failing.
     struct Examined {
         std::vector<Load> loads;
         double utilization = 0.0;

@@ -25,8 +25,9 @@ constexpr std::array<TrianglePoint, 2> triangle_rule{
     TrianglePoint{0.09157621350977074346, 0.81684757298045851308, 0.10995174365532186764}};
 
 /// Share of the force on a flat face that acts against the motion; the rest is pressure along the normal. A cube that
-/// moves edge first takes 3/4 of the force by its area (measured: 0.8 to 1.05 in C, Hoerner 1965, "Fluid-Dynamic Drag"),
-/// and a plate at an angle is lifted: swimmers get their thrust by it. On curved faces all of it acts against the motion.
+/// moves edge first takes 3/4 of the force by its area (measured: 0.8 to 1.05 in C, Hoerner 1965, "Fluid-Dynamic
+/// Drag"), and a plate at an angle is lifted: swimmers get their thrust by it. On curved faces all of it acts against
+/// the motion.
 constexpr double flat_share = 0.5;
 
 struct Element {

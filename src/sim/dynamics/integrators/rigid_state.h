@@ -38,8 +38,8 @@ BodyVelocity mean_velocity(const Body& start, const RigidState& end, double h);
 /// The rotation matrix of a quaternion of any length: the stages of a step leave the unit sphere a little.
 Mat3 rotation_of(const Quat& q);
 
-/// Force and torque on a body: Wrench(FlightPoint), or Wrench(position, velocity, rotation), of any callable, which must
-/// outlive it. A span of time over which forces begin or end is stepped in parts.
+/// Force and torque on a body: Wrench(FlightPoint), or Wrench(position, velocity, rotation), of any callable, which
+/// must outlive it. A span of time over which forces begin or end is stepped in parts.
 class ForceLaw {
 public:
     template <class Callable>
@@ -67,7 +67,8 @@ StateVector vector_of(const RigidState& state);
 /// The state with its quaternion normalized.
 RigidState state_of(const StateVector& y);
 
-/// dx/dt = P/M, dq/dt = omega q / 2, dP/dt = F, dL/dt = tau, dt/dt = 1 (notes eq. 7 and section 3.1), omega = R I^-1 R^T L.
+/// dx/dt = P/M, dq/dt = omega q / 2, dP/dt = F, dL/dt = tau, dt/dt = 1 (notes eq. 7 and section 3.1), omega = R I^-1
+/// R^T L.
 StateVector rate_of_change(const StateVector& y, const RigidMass& mass, const ForceLaw& forces);
 
 }  // namespace tumble
