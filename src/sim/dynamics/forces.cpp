@@ -191,7 +191,7 @@ Wrench ForceField::dry_fields(std::size_t index, const Body& body, double from, 
 
 // Adds the forces of the water over a step of h seconds to the others, and takes from all what the water around a free
 // body takes. The drag is that of the mean velocity, as in one dimension: it stops no body within a step. A thin plate
-// whose buoyancy would turn its motion within a step moves as if heavier.
+// whose buoyancy would turn its motion within a step moves as if heavier, and no torque turns a body by a radian.
 void ForceField::add_water(Wrench& sum, std::size_t index, const Body& body, double time, double h, bool flies) const {
     const WaterBody matter = matter_of(body);
     const WaterLoad load = water_->load(index, matter, motion_of(body), time, flies, h);
@@ -199,6 +199,8 @@ void ForceField::add_water(Wrench& sum, std::size_t index, const Body& body, dou
     if (flies) sum = WaterForces::on_free(matter, load, body.rotation, sum);
     const double stiff = load.stiffness * h * h;
     if (stiff > body.mass) sum = sum_of({}, sum, body.mass / stiff);
+    const double turn = h * h * (matter.inverse_inertia * (body.rotation.transpose() * sum.torque)).norm();
+    if (turn > 1.0) sum.torque /= turn;
 }
 
 Wrench ForceField::water(std::size_t index, const Body& body, double from, double to, bool flies) const {
@@ -262,7 +264,10 @@ double ForceField::water_rate(std::size_t index, const Body& body, const FlightP
     const WaterBody matter = matter_of(body);
     const WaterLoad load = water_->load(index, matter, motion_at(matter, at), time, true);
     if (!(load.displaced > 0.0)) return 0.0;
-    return load.drag_rate + std::sqrt(load.stiffness * body.inverse_mass) + water_->wave_rate();
+    const Vec3 spin = matter.inverse_inertia * (at.rotation.transpose() * at.angular_momentum),
+               turn = matter.inverse_inertia * (at.rotation.transpose() * load.buoyancy.torque);
+    return load.drag_rate + std::sqrt(load.stiffness * body.inverse_mass) + std::sqrt(turn.norm()) + spin.norm() +
+           water_->wave_rate();
 }
 
 Wrench ForceField::alone(std::size_t index, const Body& body, const MassPoint& point, const Mat3& rotation,

@@ -108,12 +108,18 @@ void advance_one_step(Body& body, IntegratorKind kind, const ForceField& forces,
     const RigidMass mass = mass_of(body);
     for_each_span(body, forces, index, from, to, [&](double start, double end, const auto& law) {
         state.elapsed = 0.0;
-        const int parts = forces.has_water() ? parts_in_water(state, mass, forces, body, index, start, end) : 1;
-        for (int k = 0; k < parts; ++k) {
+        const double span = end - start;
+        for (double done = 0.0;;) {
+            const double rest = span - done;
+            const int parts =
+                forces.has_water() ? parts_in_water(state, mass, forces, body, index, start + done, end) : 1;
+            const double h = parts > 1 ? std::min(rest, std::max(rest / parts, span / most_water_parts)) : rest;
             if (kind == IntegratorKind::splitting)
-                splitting_step(state, mass, ForceLaw(law), (end - start) / parts);
+                splitting_step(state, mass, ForceLaw(law), h);
             else
-                runge_kutta_4_step(state, mass, ForceLaw(law), (end - start) / parts);
+                runge_kutta_4_step(state, mass, ForceLaw(law), h);
+            done += h;
+            if (!(h < rest)) break;
         }
     });
     set_state(body, state);
