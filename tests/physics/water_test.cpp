@@ -371,6 +371,18 @@ TEST(Water, AnEelSwimsHeadFirst) {
     EXPECT_LT(std::abs(swum.z()), 0.3 * swum.x());
 }
 
+TEST(Water, WavesDoNotTurnABall) {
+    SceneDescription scene = pool(IntegratorKind::runge_kutta_4, 1.0 / 60.0);
+    scene.water->drag = 1.0;
+    scene.water->added_mass = true;
+    scene.water->waves.push_back({0.3, 4.0, {0.6, 0.0, 0.8}});
+    float_body(scene, SphereShape{0.2}, 1.0, 0.3);
+    float_body(scene, SphereShape{0.2}, 500.0, 0.3).position.x() = 2.0;
+    World world(scene);
+    frames(world, 180);
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_LT(state(world, i).angular_velocity.norm(), 1e-9) << i;
+}
+
 TEST(Water, APaddleWheelDrivesItsBoat) {
     const SceneDescription harbor = load_scene(TUMBLE_SOURCE_DIR "/assets/scenes/harbor.toml");
     for (const double turns : {1.0, -1.0}) {

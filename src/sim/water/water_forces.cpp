@@ -75,7 +75,11 @@ WaterLoad WaterForces::load(std::size_t body, const WaterBody& matter, const Wat
     load.displaced = density * part.volume;
     if (!surface_.still()) load.water_acceleration = surface_.acceleration(place, time);
     load.buoyancy.force = load.displaced * (load.water_acceleration + gravity_ * Vec3::UnitY());
-    load.buoyancy.torque = arm.cross(load.buoyancy.force);
+    // At the surface the pressure's gradient is along its normal, which linear waves have to the first order only: the
+    // rest would turn a ball.
+    const bool cut = !surface_.still() && part.volume < swimmer.volume * (1.0 - 1e-9);
+    load.buoyancy.torque =
+        arm.cross(cut ? Vec3(plane.normal.dot(load.buoyancy.force) * plane.normal) : load.buoyancy.force);
 
     const Vec3 flow = surface_.velocity(place, time), past = motion.velocity - flow;
     const FlowPast in_body{rotation.transpose() * past, rotation.transpose() * motion.angular_velocity};
