@@ -199,7 +199,7 @@ void World::State::step() {
     set.place_kinematic(clock, steps);
     stop_if_not_finite(context());
     fall_asleep();  // islands at rest are excluded from the simulation
-    fracture.finish_events(context(), detection);
+    fracture.finish_events(context(), detection, *motion);
     fracture.yield(context(), detection, *motion);
     resolve_hits();
 }
@@ -234,7 +234,7 @@ void World::State::advance(std::int64_t to) {
         } else {
             if (log) log_skipped(reached - steps);
             steps = reached;
-            fracture.finish_events(context(), detection);
+            fracture.finish_events(context(), detection, *motion);
             stop_if_not_finite(context());
         }
     }

@@ -296,10 +296,11 @@ const BlowResult* FractureStage::strike(const Island& island, const std::vector<
     return &event_;
 }
 
-void FractureStage::finish_events(const StepContext& step, ContactDetection& detection) {
+void FractureStage::finish_events(const StepContext& step, ContactDetection& detection, MotionStage& motion) {
     if (exchanged_.empty()) return;
     sort_unique(exchanged_);
     exchange(exchanged_, step, detection);
+    motion.measure(step.set.bodies);
     exchanged_.clear();
 }
 

@@ -35,7 +35,7 @@ public:
     /// then, and the rest of the world after finish_events().
     const BlowResult* strike(const Island& island, const std::vector<Contact>& contacts, const ImpactSettings& settings,
                              const ImpactTime& when, const StepContext& step);
-    void finish_events(const StepContext& step, ContactDetection& detection);
+    void finish_events(const StepContext& step, ContactDetection& detection, MotionStage& motion);
 
     /// `step`: the coming one. Parts the bodies that the contacts and joints of the last step, and their own rotation,
     /// load beyond their strength. They go on as they moved.
