@@ -31,9 +31,38 @@ position = [-2.5, 0.2, 0]
 velocity = [2, 0, 0]
 )";
 
+// A bar on two supports that breaks under a ball, and a spring on one of its pieces.
+inline constexpr const char* breaking_bar = R"(format = 1
+[[body]]
+type = "fixed"
+shape = { type = "box", size = [0.2, 0.4, 1] }
+position = [-0.9, 0.2, 0]
+[[body]]
+type = "fixed"
+shape = { type = "box", size = [0.2, 0.4, 1] }
+position = [0.9, 0.2, 0]
+[[body]]
+name = "bar"
+strength = 1e5
+stiffness = 1e9
+toughness = 1
+shape = { type = "box", size = [2, 0.1, 0.2] }
+position = [0, 0.45, 0]
+fracture = { cells = 6, pattern = "slabs" }
+[[body]]
+shape = { type = "sphere", radius = 0.2 }
+position = [0.1, 0.75, 0]
+velocity = [0, -6, 0]
+[[joint]]
+type = "ball"
+bodies = ["world", "bar"]
+anchor = [-0.9, 0.5, 0]
+)";
+
 inline constexpr CheckpointScene checkpoint_scenes[] = {
     {false, sleeping_pile},
     {true, sleeping_pile},
+    {true, breaking_bar},
     {false, R"(format = 1
 [simulation]
 integrator = "exact"

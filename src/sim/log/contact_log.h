@@ -103,8 +103,7 @@ private:
         template <class Archive, class Self>
         static void visit(Archive& archive, Self& self) {
             auto& [a, b, part, feature] = self;
-            archive.body_or(nobody, a);
-            archive.body_or(nobody, b);
+            archive.body(a, b);
             archive.any(part, feature);
         }
     };
