@@ -27,6 +27,28 @@ velocity = [3.0, 0.0, 0.0]
 """
 
 
+PANE = """\
+format = 1
+[simulation]
+duration = 0.2
+gravity = [0, 0, 0]
+[[body]]
+name = "pane"
+density = 2500
+strength = 30e6
+stiffness = 70e9
+toughness = 8
+shape = { type = "box", size = [0.6, 0.5, 0.01] }
+fracture = { cells = 12 }
+[[body]]
+name = "ball"
+density = 7800
+shape = { type = "sphere", radius = 0.05 }
+position = [0.03, 0.04, 0.3]
+velocity = [0, 0, -9]
+"""
+
+
 class Tables(program.ProgramTest):
     def simulate(self, *arguments):
         self.check(0, "simulate", "scene.toml", "--trajectory", "t.csv", "--energy", "e.csv", *arguments)
@@ -289,6 +311,30 @@ def npy(content):
     kind = {"<f8": "d", "<i4": "i", "|u1": "B"}[header["descr"]]
     body = content[10 + length:]
     return kind, struct.unpack(f"<{len(body) // struct.calcsize(kind)}{kind}", body)
+
+    def test_a_body_that_breaks(self):
+        self.write("pane.toml", PANE)
+        self.check(0, "simulate", "pane.toml", "--trajectory", "t.csv", "--energy", "e.csv", "--breaks", "b.csv")
+        breaks, energy = self.rows("b.csv"), self.rows("e.csv")
+        self.assertEqual((self.folder / "b.csv").read_text().split("\n")[0],
+                         "time,body,bond,area,tension,bending,shear,torsion,energy,pieces")
+        self.assertGreater(len(breaks), 2)
+        self.assertEqual({row["body"] for row in breaks}, {"pane"})
+        paid = sum(float(row["energy"]) for row in breaks)
+        self.assertAlmostEqual(float(energy[-1]["surface_energy"]), paid, delta=1e-12)
+        self.assertAlmostEqual(paid, 8 * sum(float(row["area"]) for row in breaks if float(row["energy"]) > 0), delta=1e-12)
+        # Rows of all bodies in all frames: empty where a body is not there.
+        first = float(breaks[0]["time"])
+        for row in self.rows("t.csv"):
+            whole, later = row["body"] == "pane", float(row["time"]) >= first
+            if row["body"] != "ball":
+                self.assertEqual(row["x"] == "", whole == later, row)
+
+    def test_breaks_as_arrays(self):
+        self.write("pane.toml", PANE)
+        self.check(0, "simulate", "pane.toml", "--breaks", "b.npz")
+        with zipfile.ZipFile(self.folder / "b.npz") as arrays:
+            self.assertIn("tension.npy", arrays.namelist())
 
 
 if __name__ == "__main__":
