@@ -9,6 +9,7 @@
 #include "sim/step/motion_stage.h"
 #include "sim/step/step_context.h"
 
+#include <memory>
 #include <utility>
 
 namespace tumble {
@@ -164,7 +165,7 @@ void FractureStage::yield(const StepContext& step, ContactDetection& detection, 
     auto from = loads_.begin();
     for (std::uint32_t entry = 0; entry < bodies_.size(); ++entry) {
         const auto to = std::find_if(from, loads_.end(), [&](const PieceLoad& l) { return l.entry != entry; });
-        const std::span<const PieceLoad> loads(from, to);
+        const std::span<const PieceLoad> loads(std::to_address(from), std::size_t(to - from));
         from = to;
         std::vector<BreakRecord> breaks;
         std::optional<BondGraph> graph = examine(entry, loads, step, breaks);
