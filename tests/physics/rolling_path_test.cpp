@@ -209,6 +209,38 @@ TEST(RollingPath, AStoppedCoinStaysOnItsRim) {
     }
 }
 
+// A cylinder on one rim tilts over its side, and the other rim meets the plane: an impact, which gains no energy.
+TEST(RollingPath, TheOtherRimMeetsThePlaneInAnImpact) {
+    for (const ImpactMode mode : {ImpactMode::exact, ImpactMode::stepped})
+        for (const double restitution : {0.0, 0.5})
+            for (const double height : {0.325, 0.33}) {
+                SCOPED_TRACE(std::to_string(int(mode)) + " " + std::to_string(restitution) + " " +
+                             std::to_string(height));
+                SceneDescription scene = ground_scene(restitution, 0.35);
+                BodyDescription& body = add_body(scene, cylinder(0.3, 0.5), {0.0, height, 0.0});
+                body.rotation = turn(Vec3::UnitX(), 84.0 * pi / 180.0);
+                body.angular_velocity = {1.0, 4.0, 4.0};
+                body.velocity = {0.5, 0.0, -1.0};
+                body.friction = 0.35;
+                body.restitution = restitution;
+                make_exact(scene);
+                scene.simulation.impacts = mode;
+                set_step(scene, 240.0);
+                World world(scene);
+                const auto tilt = [&] { return (world.snapshot().bodies.back().orientation * Vec3::UnitY()).y(); };
+                const double start = energy(world);
+                double before = start, other_rim = tilt();
+                for (int frame = 0; frame < 240; ++frame) {
+                    world.advance_frame();
+                    // A lift out of an overlap adds energy.
+                    EXPECT_LT(energy(world), before + 1e-3 * start) << frame;
+                    before = energy(world);
+                    other_rim = std::min(other_rim, tilt());
+                }
+                EXPECT_LT(other_rim, 0.0);
+            }
+}
+
 // Other contacts and rolling friction leave the body to the contact solver, and it comes to rest.
 TEST(RollingPath, RollingFrictionEndsTheMotion) {
     SceneDescription scene = coin_scene({.tilt = 40.0});

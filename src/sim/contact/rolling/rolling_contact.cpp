@@ -20,7 +20,8 @@ std::optional<RollingPlane> plane_of(const Manifold& m, const Body& body, const 
     if (other.moves() || has_rotational_friction(other)) return {};
     const auto plane = [&](const Vec3& normal, double offset) {
         const Vec3 world = other.rotation * normal;
-        return RollingPlane{world, offset + world.dot(other.position), pair_friction(body, other)};
+        return RollingPlane{world, offset + world.dot(other.position), pair_friction(body, other),
+                            pair_restitution(body, other)};
     };
     if (const auto* space = std::get_if<HalfSpace>(&other.collider)) return plane(space->normal, space->offset);
     const auto* hull = std::get_if<std::shared_ptr<const Polyhedron>>(&other.collider);

@@ -24,6 +24,11 @@ constexpr double slip_rounding = 1e-11;
 /// An overlap after a hop within the step, radii, far above rounding. The speed of the landing is below g h.
 constexpr double landing_rounding = 1e-9;
 
+/// A velocity of the contact point after a part above this, in the speeds of a fall through the body's radius, is no
+/// error: the contact has jumped, as from one rim of a cylinder to the other. Not fitted: the error of a shortest part
+/// is its length times an acceleration.
+constexpr double jump_speed = 1e-3;
+
 /// A slip that friction may end within this number of parts turns too fast for the method: its direction is held for a
 /// part, of at most the step over two to this power. Related test: RollingPath.ASlipBeginsAndEndsAlikeAtAnyStep.
 constexpr double slow_slip_parts = 8.0;
@@ -169,14 +174,31 @@ private:
         y.tail<3>() += c.inverse_inertia * c.arm.cross(impulse);
     }
 
-    // Removes the rounding of a part: the body touches the plane, and its contact point has the velocity of the way.
-    void settle(State& y) const {
+    // Removes the error of a part: the body touches the plane, and its contact point has the velocity of the way.
+    // Returns false where the contact has jumped: it keeps its velocity, and an impact there has to end it.
+    bool settle(State& y) const {
         y.segment<4>(3).normalize();
-        if (way_ == Way::flies) return;
+        if (way_ == Way::flies) return true;
         const Vec3 arm = arm_of(y), omega = y.tail<3>(), &n = plane_.normal;
         y.head<3>() += (plane_.offset - n.dot(y.head<3>() + arm)) * n;
         const Vec3 velocity = y.segment<3>(7) + omega.cross(arm);
-        y.segment<3>(7) -= way_ == Way::rolls ? velocity : Vec3(n.dot(velocity) * n);
+        const Vec3 excess = way_ == Way::rolls ? velocity : Vec3(n.dot(velocity) * n);
+        if (excess.norm() > jump_speed * speed_) return false;
+        y.segment<3>(7) -= excess;
+        return true;
+    }
+
+    // Stops the point to which the contact has jumped, without a bounce. It sticks there if friction suffices.
+    void land(State& y) {
+        State landed = y;
+        stop_contact(landed);
+        const Vec3 impulse = landed.segment<3>(7) - y.segment<3>(7);
+        if (way_ == Way::rolls && across(impulse).norm() > plane_.friction * plane_.normal.dot(impulse)) {
+            way_ = Way::slides;
+            landed = y;
+            stop_contact(landed);
+        }
+        y = landed;
     }
 
     // One part by extrapolation, if the motion can go on in its way, and with a small error. `last`: no shorter part is
@@ -207,10 +229,12 @@ private:
                       difference.segment<3>(7).norm() / fall, difference.tail<3>().norm() * body_.radius / fall});
         if (!change.allFinite() || (!last && !(error <= part_tolerance))) return Stop::error;
         if (way_ == Way::flies && gap(y + change) < -landing_rounding * body_.radius) return Stop::landing;
-        const double before = rubs() ? energy(y) : 0.0;
-        y += change;
-        settle(y);
-        if (rubs()) slipped_ += before - energy(y);
+        State end = y + change;
+        const bool jumped = !settle(end);
+        if (jumped && (!last || plane_.restitution > 0.0)) return Stop::error;
+        if (rubs()) slipped_ += energy(y) - energy(end);
+        if (jumped) land(end);
+        y = end;
         return Stop::none;
     }
 

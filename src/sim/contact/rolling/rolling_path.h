@@ -19,7 +19,7 @@ namespace tumble {
 struct RollingPlane {
     Vec3 normal = Vec3::UnitY();  // unit, out of the solid
     double offset = 0.0;          // m, normal . p of its surface
-    double friction = 0.0;
+    double friction = 0.0, restitution = 0.0;
 };
 
 struct RolledStep {
@@ -28,8 +28,9 @@ struct RolledStep {
 };
 
 /// The motion through `span` s from the body's present state under the acceleration `gravity` (m/s^2), to 1e-12 of the
-/// body's size. A body that leaves the plane flies, and lands without a bounce. None where the body tilts onto a face
-/// or changes its way too often: the contact solver has to decide. Precondition: body.collider is a CurvedBody.
+/// body's size. A body that leaves the plane flies, and lands without a bounce. None where the body tilts onto a face,
+/// where its contact jumps (from one rim to the other) and may bounce, or where it changes its way too often: the
+/// contact solver has to decide. Precondition: body.collider is a CurvedBody.
 std::optional<RolledStep> roll(const Body& body, const RollingPlane& plane, const Vec3& gravity, double span);
 
 }  // namespace tumble
