@@ -115,6 +115,23 @@ class Aovs(program.ProgramTest):
                           {"id": "1", "kind": "body", "index": "0", "name": "ground"},
                           {"id": "2", "kind": "body", "index": "1", "name": "crate, small"}])
 
+    def test_pieces_name_their_whole(self):
+        pane = """[[body]]
+name = "pane, old"
+shape = { type = "box", size = [1, 1, 0.1] }
+position = [0, 4, 0]
+density = 2500
+strength = 1e4
+stiffness = 1e9
+fracture = { cells = 2, pattern = "slabs" }
+"""
+        self.write("pane.toml", SCENE.replace('"exact"', '"splitting"') + pane)
+        self.check(0, "render", "pane.toml", "--aov", "segmentation", "--aov-folder", "out", "--duration", "0")
+        rows = self.rows("out/segmentation.csv")
+        self.assertEqual(list(rows[0]), ["id", "kind", "index", "name", "parent"])
+        self.assertEqual([row["name"] for row in rows], ["", "ground", "crate, small", "pane, old", "pane, old/0", "pane, old/1"])
+        self.assertEqual([row["parent"] for row in rows], ["", "", "", "", "pane, old", "pane, old"])
+
     def test_without_pictures(self):
         run = self.check(0, "render", "scene.toml", "--aov", "depth,motion", "--aov-folder", "values")
         self.assertEqual(self.names(), ["values"] + ["values/" + name for name in aov_names(4)])

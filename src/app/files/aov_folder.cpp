@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string_view>
 #include <utility>
 
 namespace tumble {
@@ -39,15 +41,31 @@ std::unique_ptr<TemporaryFile> AovFolder::write(std::int64_t frame, std::span<co
     return part;
 }
 
-/// One row per number: 0 is the background; bodies and cords by their index in the scene; then the water.
+/// One row per number: 0 is the background; bodies and cords by their index in the scene; then the water. Pieces have a
+/// parent, the body that was cut.
 void AovFolder::write_table() const {
-    TableWriter table(segmentation_table_path(folder_), "id,kind,index,name");
-    table.integer(0).text("background").text("").text("").end_row();
-    for (std::size_t i = 0; i < scene_.bodies.size(); ++i)
-        table.integer(body_id(i)).text("body").integer(std::int64_t(i)).text(scene_.bodies[i].name).end_row();
-    for (std::size_t i = 0; i < scene_.cords.size(); ++i)
-        table.integer(cord_id(scene_, i)).text("cord").integer(std::int64_t(i)).text("").end_row();
-    if (shows_water(scene_)) table.integer(water_id(scene_)).text("water").integer(0).text("").end_row();
+    const bool cut =
+        std::ranges::any_of(scene_.bodies, [](const BodyDescription& body) { return body.piece_of.has_value(); });
+    TableWriter table(segmentation_table_path(folder_), cut ? "id,kind,index,name,parent" : "id,kind,index,name");
+    const auto end_row = [&](std::string_view parent = "") {
+        if (cut) table.text(parent);
+        table.end_row();
+    };
+    table.integer(0).text("background").text("").text("");
+    end_row();
+    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
+        const BodyDescription& body = scene_.bodies[i];
+        table.integer(body_id(i)).text("body").integer(std::int64_t(i)).text(body.name);
+        end_row(body.piece_of ? std::string_view(scene_.bodies[*body.piece_of].name) : "");
+    }
+    for (std::size_t i = 0; i < scene_.cords.size(); ++i) {
+        table.integer(cord_id(scene_, i)).text("cord").integer(std::int64_t(i)).text("");
+        end_row();
+    }
+    if (shows_water(scene_)) {
+        table.integer(water_id(scene_)).text("water").integer(0).text("");
+        end_row();
+    }
     table.finish();
 }
 
