@@ -8,6 +8,7 @@ import type { Clip, Impact, Mat3, Quat, Run, Vec3 } from "../src/data/clip.ts";
 import { contact_states, features, nobody } from "../src/data/clip.ts";
 import { decode_clip } from "../src/data/decode_clip.ts";
 import { conjugate, cross, difference, dot, inverse, norm, rotated, sum, times } from "../src/data/vectors.ts";
+import { pick } from "../src/stage/pick.ts";
 import { bouncing_height } from "./closed_forms.ts";
 import { numbers, scenes_folder, table, temporary_folder, tumble, type Row } from "./program.ts";
 import { tumble_path } from "./paths.mjs";
@@ -353,4 +354,48 @@ test("damaged data is refused in words", { skip }, async () => {
   await assert.rejects(decode_clip("%%%"), /not base64/);
   await assert.rejects(decode_clip(base64.slice(0, base64.length / 2 - (base64.length / 2) % 4)), /incomplete or damaged/);
   await assert.rejects(decode_clip(btoa("nonsense")), /damaged/);
+});
+
+// A ball breaks a bar that floats.
+const breaking = `format = 1
+[simulation]
+duration = 0.5
+gravity = [0.0, 0.0, 0.0]
+[[body]]
+name = "bar"
+shape = { type = "box", size = [2.0, 0.1, 0.1] }
+density = 1000.0
+strength = 1e5
+stiffness = 1e9
+velocity = [0.0, 0.5, 0.0]
+fracture = { cells = 4, pattern = "slabs", seed = 2 }
+[[body]]
+name = "ball"
+shape = { type = "sphere", radius = 0.2 }
+position = [0.9, 1.0, 0.0]
+velocity = [0.0, -8.0, 0.0]
+`;
+
+test("a body shows until it breaks and its pieces from then on, with all of the momentum", { skip }, async () => {
+  const file = scene_file("breaking.toml", breaking);
+  const { run } = await make(file);
+  simulate(file, [], "breaks");
+  const breaks_at = Number(table("breaks.csv")[0].time);
+  const { bodies } = run.scene, { motion } = run;
+  const shown = (time: number) => bodies.filter((_, i) => motion.shows(i, time)).map((body) => body.name);
+  const pieces = bodies.map((body) => body.name).filter((name) => name.startsWith("bar/"));
+  assert.equal(pieces.length, 4);
+  assert.deepEqual(shown(0), ["bar", "ball"]);
+  assert.deepEqual(shown(breaks_at - 1 / run.fps), ["bar", "ball"]);
+  assert.deepEqual(shown(breaks_at + 1 / run.fps).sort(), ["ball", ...pieces].sort());
+  const momentum = (time: number) => bodies.reduce<Vec3>((total, _, i) => sum(total, motion.state(i, time).momentum), [0, 0, 0]);
+  assert.ok(norm(momentum(0)) > 100);
+  for (const time of [breaks_at - 1 / run.fps, breaks_at + 1 / run.fps, 0.5])
+    at_most(apart(momentum(time), momentum(0)), 0.1, `momentum at ${time} s`);
+  const first = bodies.findIndex((body) => body.name === "bar/0");
+  const picked = (time: number) => {
+    const [x, y] = motion.state(first, time).position;
+    return bodies[pick(run, time, { from: [x, y, 5], way: [0, 0, -1] })!].name;
+  };
+  assert.deepEqual([picked(0), picked(breaks_at + 1 / run.fps)], ["bar", "bar/0"]);
 });

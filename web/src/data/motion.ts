@@ -159,16 +159,17 @@ export class DecodedMotion implements Motion {
   }
 
   #state_of(body: number, moment: Moment): BodyState {
-    const { mass, inertia, center_of_mass } = this.#bodies[body];
+    const { inertia, center_of_mass } = this.#bodies[body];
     const { position, rotation, velocity, angular_velocity } = moment;
+    const present = this.shows(body, moment.time) ? 1 : 0;
     return {
       position,
       origin: difference(position, rotated(rotation, center_of_mass)),
       rotation,
       velocity,
       angular_velocity,
-      momentum: scaled(mass, velocity),
-      angular_momentum: rotated(rotation, times(inertia, rotated(conjugate(rotation), angular_velocity))),
+      momentum: scaled(present * this.#bodies[body].mass, velocity),
+      angular_momentum: scaled(present, rotated(rotation, times(inertia, rotated(conjugate(rotation), angular_velocity)))),
       asleep: this.#within(this.#asleep, body, moment.time),
     };
   }

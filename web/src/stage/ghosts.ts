@@ -20,6 +20,7 @@ export function ghosts_until(run: Run, radii: number[], shown: Set<number>): Gho
       if (rows.length >= style.most_ghosts) return rows;
       const radius = radii[body];
       const time = frame / run.fps;
+      if (!run.motion.shows(body, time)) continue;
       const { origin, rotation } = run.motion.state(body, time);
       if (radius === 0 || last.get(body)?.near({ origin, rotation })) continue;
       const near = (other: Place) =>

@@ -14,7 +14,7 @@ export function pick(run: Run, time: number, ray: Ray): number | null {
   let nearest = Infinity;
   let found: number | null = null;
   run.scene.bodies.forEach((body, index) => {
-    if (!body.visible || body.shape.type === "plane") return;
+    if (!body.visible || body.shape.type === "plane" || !run.motion.shows(index, time)) return;
     const { origin, rotation } = run.motion.pose(index, time, pose);
     const away = hit(body.shape, run.scene.meshes, origin, rotation, ray);
     if (away < nearest) [nearest, found] = [away, index];

@@ -24,10 +24,11 @@ export function add_trails(run: Run, viewing_distance: number, to: ScreenShapes)
   const pieces: ScreenShape[] = [];
   for (const { body, point, color } of points) {
     if (run.motion.kind(body) === "still") continue;
-    const samples = times_of(run, body).map((time): Sample => {
+    const samples = times_of(run, body).filter((time) => run.motion.shows(body, time)).map((time): Sample => {
       const { position, origin, rotation } = run.motion.state(body, time);
       return { time, at: point ? add(origin, rotate(rotation, point)) : position };
     });
+    if (samples.length === 0) continue;
     const kept = simplified(samples, tolerance * viewing_distance);
     for (let i = 0; i + 1 < kept.length; ++i)
       pieces.push({
