@@ -102,6 +102,10 @@ std::vector<Row> make_rows(const SceneDescription& scene, const PanelOverlay& pa
     if (overlay.show.has(Overlay::sleep)) rows.push_back({{Entry::Symbol::patch, style::asleep_color, "asleep"}});
     if (overlay.show.has(Overlay::islands))
         rows.push_back({{Entry::Symbol::patch, style::island_colors[0], "island: bodies in contact"}});
+    if (overlay.show.has(Overlay::cracks)) {
+        rows.push_back({{Entry::Symbol::patch, style::crack_color, "bond between cells"}});
+        rows.push_back({{Entry::Symbol::patch, style::open_crack_color, "open crack"}});
+    }
     return rows;
 }
 

@@ -72,6 +72,7 @@ OverlayBuilder::OverlayBuilder(const SceneDescription& scene, const OverlayScale
     : scene_(&scene), scales_(scales), shown_(shown_bodies(scene)), labels_(scene) {
     for (const BodyDescription& body : scene.bodies) radii_.push_back(radius_about_origin(body.shape));
     if (shows(Overlay::joints)) joints_ = sketch_joints(scene);
+    if (shows(Overlay::cracks)) cracks_ = sketch_cracks(scene);
     if (!shows(Overlay::trails)) return;
     for (const TrailPoint& point : scene.overlay.trail_points)
         trails_.push_back({point.body, point.point, false, point.color.value_or(trail_color(scene, point.body)), {}});
@@ -94,6 +95,7 @@ const OverlayFrame& OverlayBuilder::next(const Snapshot& snapshot, const Contact
     if (shows(Overlay::ghosts)) add_ghosts(snapshot, frame);
     if (shows(Overlay::islands) && records != nullptr) add_islands(snapshot, *records);
     add_trails();
+    add_cracks(snapshot);
     for (std::size_t i = 0; i < snapshot.bodies.size(); ++i)
         if (shows(i, snapshot)) add_body(i, snapshot.bodies[i]);
     if (records != nullptr) add_contacts(*records);
@@ -168,6 +170,32 @@ void OverlayBuilder::add_trails() {
         line.paint = {trail.color, style::trail_opacity, true};
         line.width = style::trail_width;
         frame_.lines.push_back(std::move(line));
+    }
+}
+
+// A bond is open where its cells have moved apart; the edges of its face then are those of both pieces.
+void OverlayBuilder::add_cracks(const Snapshot& snapshot) {
+    for (const CrackSketch& crack : cracks_) {
+        const auto add = [&](std::size_t body, Color color) {
+            const BodyState& state = snapshot.bodies[body];
+            OverlayLine line;
+            for (const Vec3& p : crack.outline) line.points.push_back(state.origin + state.orientation * p);
+            line.paint = {color, style::crack_opacity, true, float(style::crack_allowance * radii_[crack.whole])};
+            line.width = style::crack_width;
+            frame_.lines.push_back(std::move(line));
+        };
+        if (!snapshot.bodies[crack.whole].absent) {
+            add(crack.whole, style::crack_color);
+            continue;
+        }
+        const BodyState &a = snapshot.bodies[crack.a], &b = snapshot.bodies[crack.b];
+        const double apart = style::crack_open * radii_[crack.whole];
+        const bool open = std::ranges::any_of(crack.outline, [&](const Vec3& p) {
+            return (a.origin + a.orientation * p - b.origin - b.orientation * p).norm() > apart;
+        });
+        for (const std::size_t piece : {crack.a, crack.b})
+            if (!snapshot.bodies[piece].absent && (open || piece == crack.a))
+                add(piece, open ? style::open_crack_color : style::crack_color);
     }
 }
 

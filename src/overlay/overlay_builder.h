@@ -3,6 +3,7 @@
 #pragma once
 
 #include "overlay/body_labels.h"
+#include "overlay/crack_sketch.h"
 #include "overlay/joint_sketch.h"
 #include "overlay/overlay_frame.h"
 #include "overlay/overlay_scales.h"
@@ -29,8 +30,8 @@ public:
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [scene, scales, shown, radii, joints, labels, trails, ghosts, frames, impacts, frame] = self;
-        archive.rebuilt(scene, scales, shown, radii, joints, labels);
+        auto& [scene, scales, shown, radii, joints, cracks, labels, trails, ghosts, frames, impacts, frame] = self;
+        archive.rebuilt(scene, scales, shown, radii, joints, cracks, labels);
         archive.expect_bodies(radii.size());
         archive.keep(ghosts, impacts);
         archive.count(frames);
@@ -72,6 +73,7 @@ private:
     void add_body(std::size_t body, const BodyState& state);
     void add_box(std::size_t body, const BodyState& state);
     void add_axes(std::size_t body, const BodyState& state);
+    void add_cracks(const Snapshot& snapshot);
     void add_islands(const Snapshot& snapshot, const ContactRecords& records);
     void body_arrow(ArrowQuantity quantity, std::size_t body, const BodyState& state, const Vec3& value);
     void arrow(ArrowQuantity quantity, const Vec3& from, const Vec3& value, float opacity = 1.0f);
@@ -83,6 +85,7 @@ private:
     std::vector<char> shown_;    // by body
     std::vector<double> radii_;  // m, of a ball about the origin that contains the body; 0 of planes
     std::vector<JointSketch> joints_;
+    std::vector<CrackSketch> cracks_;
     BodyLabels labels_;
     std::vector<Trail> trails_;
     std::vector<Ghost> ghosts_;

@@ -1,5 +1,6 @@
 #include "page/clip_data.h"
 
+#include "page/crack_marks.h"
 #include "page/environment_data.h"
 #include "page/joint_marks.h"
 #include "page/motion_data.h"
@@ -62,6 +63,7 @@ Json run_json(const PageRun& run, const PageClip& clip, MeshTable& meshes, Array
               {"joint_marks", make_joint_marks(run, arrays)},
               {"overlays", make_overlays(run)}};
     if (!run.pace.empty()) json["pace"] = run.pace;
+    if (Json cracks = make_crack_marks(run.scene, arrays); !cracks.empty()) json["cracks"] = std::move(cracks);
     if (run.scene.environment) json["environment"] = make_environment(*run.scene.environment, arrays);
     if (run.scene.output.exposure) json["exposure"] = *run.scene.output.exposure;
     if (run.scene.output.tone == ToneCurve::linear) json["tone"] = "linear";

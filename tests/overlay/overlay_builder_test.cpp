@@ -317,6 +317,47 @@ TEST(OverlayBuilder, ShapesAreShownInTheirTimeOnly) {
     EXPECT_TRUE(frame_after(scene, 12).markers.empty());
 }
 
+// Slabs across a bar: their faces are squares of its section.
+TEST(OverlayBuilder, CracksAreTheFacesBetweenCellsAndOpenWhenPiecesPart) {
+    SceneDescription scene = scene_showing("\"cracks\"", R"(
+[[body]]
+name = "bar"
+shape = { type = "box", size = [2.0, 0.1, 0.1] }
+density = 1000.0
+strength = 1e5
+stiffness = 1e9
+position = [0.0, 3.0, 0.0]
+fracture = { cells = 4, pattern = "slabs", seed = 2 }
+[[body]]
+name = "ball"
+shape = { type = "sphere", radius = 0.2 }
+position = [0.9, 4.0, 0.0]
+velocity = [0.0, -8.0, 0.0]
+)");
+    const auto count = [&](const OverlayFrame& frame, Color color) {
+        return std::ranges::count_if(frame.lines, [&](const OverlayLine& line) { return line.paint.color == color; });
+    };
+    const OverlayFrame whole = frame_after(scene, 0);
+    ASSERT_EQ(whole.lines.size(), 3u);
+    EXPECT_EQ(count(whole, style::crack_color), 3);
+    for (const OverlayLine& line : whole.lines) {
+        ASSERT_EQ(line.points.size(), 5u);
+        EXPECT_EQ(line.points.front(), line.points.back());
+        for (const Vec3& p : line.points) {
+            EXPECT_NEAR(std::abs(p.y() - 3.0), 0.05, 1e-6);
+            EXPECT_NEAR(std::abs(p.z()), 0.05, 1e-6);
+            EXPECT_NEAR(p.x(), line.points[0].x(), 1e-6);
+            EXPECT_LT(std::abs(p.x()), 0.99);
+        }
+    }
+    const OverlayFrame broken = frame_after(scene, 30);
+    const auto open = count(broken, style::open_crack_color), closed = count(broken, style::crack_color);
+    EXPECT_GT(open, 0);
+    EXPECT_EQ(open / 2 + closed, 3);  // an open one has the edges of both pieces
+    scene.overlay.bodies = {1};       // the crate
+    EXPECT_TRUE(frame_after(scene, 30).lines.empty());
+}
+
 TEST(OverlayBuilder, AnAabbContainsTheTurnedBodyTightly) {
     SceneDescription scene = scene_showing("\"aabb\"");
     scene.bodies[1].rotation = Quat(Eigen::AngleAxisd(0.25 * 3.14159265358979, Vec3::UnitZ()));

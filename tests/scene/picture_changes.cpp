@@ -63,6 +63,7 @@ const std::vector<std::vector<Change>> picture_changes = {
      {"hold", "[[speed]]", "hold = 0.125", "hold = 0.25", false},
      {"easing", "[[speed]]", "linear", "step", false}},
     {{"show", "[overlay]", "\"contacts\"", "\"contacts\", \"mode\"", false},
+     {"show", "[overlay]", "\"contacts\"", "\"contacts\", \"cracks\"", false},
      {"bodies", "[overlay]", "\"floor\"", "\"table\"", false},
      {"start", "[overlay]", "start = 0.1", "start = 0.2", false},
      {"end", "[overlay]", "end = 1.9", "", false},

@@ -392,6 +392,12 @@ test("a body shows until it breaks and its pieces from then on, with all of the 
   assert.ok(norm(momentum(0)) > 100);
   for (const time of [breaks_at - 1 / run.fps, breaks_at + 1 / run.fps, 0.5])
     at_most(apart(momentum(time), momentum(0)), 0.1, `momentum at ${time} s`);
+  assert.deepEqual(run.cracks.map(({ pieces }) => pieces.map((piece) => bodies[piece].name)),
+    [["bar/0", "bar/1"], ["bar/1", "bar/2"], ["bar/2", "bar/3"]]);
+  for (const { outline } of run.cracks) {
+    assert.equal(outline.length, 5);
+    for (const [x, y, z] of outline) at_most(Math.hypot(x - outline[0][0], Math.abs(y) - 0.05, Math.abs(z) - 0.05), 1e-6, "corner");
+  }
   const first = bodies.findIndex((body) => body.name === "bar/0");
   const picked = (time: number) => {
     const [x, y] = motion.state(first, time).position;

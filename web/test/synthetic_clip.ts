@@ -260,6 +260,7 @@ export function make_synthetic_run(restitution: number): Run {
     contacts,
     all_contacts: contacts.a.length,
     joint_marks: [],
+    cracks: [],
     loads: {
       force: (body) => [0, -mass_of(body) * gravity, 0],
       moment(body, frame) {

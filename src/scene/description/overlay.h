@@ -53,8 +53,9 @@ enum class Overlay : std::uint8_t {
     title,             // the scene's title
     clock,             // the frame's time
     mode,              // integrator, impacts and step
+    cracks,            // faces between the cells of bodies with `fracture`
 };
-inline constexpr std::size_t overlay_count = 22;
+inline constexpr std::size_t overlay_count = 23;
 
 struct OverlayName {
     std::string_view name;
@@ -69,7 +70,7 @@ inline constexpr std::array<OverlayName, overlay_count> overlay_names{{
     {"axes", Overlay::axes},         {"com", Overlay::com},           {"islands", Overlay::islands},
     {"joints", Overlay::joints},     {"sleep", Overlay::sleep},       {"names", Overlay::names},
     {"damage", Overlay::damage},     {"title", Overlay::title},       {"clock", Overlay::clock},
-    {"mode", Overlay::mode},
+    {"mode", Overlay::mode},         {"cracks", Overlay::cracks},
 }};
 
 class OverlaySet {

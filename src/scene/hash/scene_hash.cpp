@@ -279,7 +279,9 @@ private:
     }
 
     void add_value(const OverlaySet& show) {
-        for (const OverlayName& overlay : overlay_names) add(show.has(overlay.overlay));
+        for (const OverlayName& overlay : overlay_names)
+            if (overlay.overlay != Overlay::cracks) add(show.has(overlay.overlay));
+        if (show.has(Overlay::cracks)) add(std::string_view("cracks"));  // scenes without it keep their hash
     }
     bool all_;
     std::map<const void*, std::string> hash_of_shared_;  // looked up only: the order of addresses has no effect

@@ -48,6 +48,7 @@ export interface Run {
   loads: LoadTable;
   /** Empty where there are too many joints and frames. */
   joint_marks: JointMarks[];
+  cracks: CrackMarks[];
   overlays: OverlaySettings;
 }
 
@@ -321,11 +322,19 @@ export interface LoadTable {
 
 export type OverlayName =
   | "contacts" | "normals" | "impulses" | "forces" | "loads" | "velocity" | "omega" | "momentum" | "angular-momentum"
-  | "trails" | "ghosts" | "aabb" | "axes" | "com" | "joints" | "islands" | "sleep" | "names";
+  | "trails" | "ghosts" | "aabb" | "axes" | "com" | "joints" | "islands" | "sleep" | "names" | "cracks";
 export type ArrowQuantity = "force" | "impulse" | "velocity" | "omega" | "momentum" | "angular-momentum" | "torque";
 
 /** A point of a body, from its origin in its frame, m; body -1: of the world. */
 export type SketchPoint = [body: number, x: number, y: number, z: number];
+
+/** A face between two cells of a body with `fracture`. */
+export interface CrackMarks {
+  whole: number;
+  pieces: [number, number];
+  /** Closed; m, from the origin that the three bodies share, in their frame. */
+  outline: Vec3[];
+}
 
 /** What an overlay draws of a joint, and its state by frame. */
 export interface JointMarks {

@@ -5,7 +5,7 @@ import type { ClipHeader, RunHeader } from "./header.ts";
 import { inflate } from "./inflate.ts";
 import { DecodedMotion, read_events } from "./motion.ts";
 import { read_mesh, read_scene, read_texels } from "./scene.ts";
-import { read_contacts, read_energy, read_impacts, read_joint_marks, read_joints, read_loads, read_struck_times } from "./tables.ts";
+import { read_contacts, read_cracks, read_energy, read_impacts, read_joint_marks, read_joints, read_loads, read_struck_times } from "./tables.ts";
 
 const known_format = 1;
 
@@ -29,6 +29,7 @@ function read_run(run: RunHeader, reader: Container<ClipHeader>, meshes: Mesh[],
     all_contacts: run.all_contacts,
     loads: read_loads(run, reader, motion),
     joint_marks: read_joint_marks(run, reader),
+    cracks: read_cracks(run, reader),
     overlays: { ...run.overlays, trail_time: run.overlays.trail_time ?? Infinity },
   };
 }

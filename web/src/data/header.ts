@@ -41,6 +41,8 @@ export interface RunHeader {
   joint_marks: (Omit<JointMarks, "states" | "force" | "torque"> & {
     states: ArrayReference; force: ColumnReference[]; torque: ColumnReference[];
   })[];
+  /** Of three bodies each: see CrackMarks. */
+  cracks?: { bodies: ArrayReference; counts: ArrayReference; places: ArrayReference };
   overlays: Omit<OverlaySettings, "trail_time"> & { trail_time: number | null };
 }
 

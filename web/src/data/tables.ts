@@ -1,5 +1,5 @@
 // Energy, joints, impacts, contacts and loads of a run (src/page/table_data.h).
-import { features, nobody, type ContactTable, type EnergyTable, type Impact, type JointMarks, type LoadTable, type Vec3 } from "./clip.ts";
+import { features, nobody, type ContactTable, type CrackMarks, type EnergyTable, type Impact, type JointMarks, type LoadTable, type Vec3 } from "./clip.ts";
 import { sum_differences, type ArrayReference, type Container } from "./container.ts";
 import type { ColumnReference, RunHeader } from "./header.ts";
 import type { DecodedMotion } from "./motion.ts";
@@ -155,6 +155,19 @@ export function read_joint_marks(run: RunHeader, reader: Reader): JointMarks[] {
     };
     return { ...joint, states: reader.integers(joint.states), force: vectors(joint.force), torque: vectors(joint.torque) };
   });
+}
+
+export function read_cracks(run: RunHeader, reader: Reader): CrackMarks[] {
+  if (!run.cracks) return [];
+  const bodies = reader.integers(run.cracks.bodies), counts = reader.integers(run.cracks.counts);
+  const places = reader.doubles(run.cracks.places);
+  const all = places.length / 3;
+  let next = 0;
+  return Array.from(counts, (count, i): CrackMarks => ({
+    whole: bodies[3 * i],
+    pieces: [bodies[3 * i + 1], bodies[3 * i + 2]],
+    outline: Array.from({ length: count }, (): Vec3 => [places[next], places[all + next], places[2 * all + next++]]),
+  }));
 }
 
 /** Means over the frame that ends at a frame's time; of the first frame: the next one's, as nothing ends there. */

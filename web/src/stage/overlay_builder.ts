@@ -1,11 +1,11 @@
 // Turns a run and a moment into the shapes of its overlays, with the rules of src/overlay/overlay_builder.cpp.
-import type { ArrowQuantity, Body, BodyState, Impact, OverlayName, Run, SketchPoint, Vec3 } from "../data/clip.ts";
+import type { ArrowQuantity, Body, BodyState, Impact, OverlayName, Pose, Run, SketchPoint, Vec3 } from "../data/clip.ts";
 import { nobody } from "../data/clip.ts";
 import { world_box } from "./bounds.ts";
 import { from_text } from "./color.ts";
 import { ghosts_until, type GhostRow } from "./ghosts.ts";
 import { island_roots } from "./islands.ts";
-import { add, clamp, length, rotate, scaled } from "./math.ts";
+import { add, clamp, distance, length, rotate, scaled } from "./math.ts";
 import { empty_frame, type OverlayArrow, type OverlayFrame } from "./overlay_frame.ts";
 import { axial, contact_colors, contact_forms, style } from "./overlay_style.ts";
 import type { SceneSize } from "./scene_size.ts";
@@ -32,6 +32,7 @@ export class OverlayBuilder {
     const frame = clamp(Math.round(time * run.fps), 0, run.frames - 1);
     if (overlays.has("ghosts")) this.add_ghosts(to, time);
     if (overlays.has("islands")) this.add_islands(to, frame);
+    if (overlays.has("cracks")) this.add_cracks(to, time);
     for (const body of this.shown) {
       if (!run.motion.shows(body, time)) continue;
       const state = before ? run.motion.state_before(body, time) : run.motion.state(body, time);
@@ -125,6 +126,31 @@ export class OverlayBuilder {
       to.markers.push({ overlay: "joints", at, color: style.joint_color, form: joint.marker, radius: style.anchor_radius, allowance: joint.allowance });
       for (const made of [this.arrow("joints", "force", at, joint.force(frame)), this.arrow("joints", "torque", at, joint.torque(frame))])
         if (made) to.arrows.push({ ...made, allowance: joint.allowance });
+    }
+  }
+
+  // A bond is open where its cells have moved apart; the edges of its face then are those of both pieces.
+  private add_cracks(to: OverlayFrame, time: number): void {
+    const { motion, cracks } = this.run;
+    const poses = new Map<number, Pose>();
+    const pose_of = (body: number): Pose => {
+      let pose = poses.get(body);
+      if (!pose) poses.set(body, (pose = motion.pose(body, time, { position: [0, 0, 0], origin: [0, 0, 0], rotation: [1, 0, 0, 0] })));
+      return pose;
+    };
+    for (const { whole, pieces, outline } of cracks) {
+      const radius = this.size.radii[whole];
+      const places = (body: number) => outline.map((at) => add(pose_of(body).origin, rotate(pose_of(body).rotation, at)));
+      const push = (points: Vec3[], color: Vec3) =>
+        to.lines.push({ points, color, opacity: style.crack_opacity, width: style.crack_width, allowance: style.crack_allowance * radius });
+      if (motion.shows(whole, time)) {
+        push(places(whole), style.crack_color);
+        continue;
+      }
+      const [one, other] = pieces.map(places);
+      const open = one.some((at, i) => distance(at, other[i]) > style.crack_open * radius);
+      push(one, open ? style.open_crack_color : style.crack_color);
+      if (open) push(other, style.open_crack_color);
     }
   }
 

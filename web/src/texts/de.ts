@@ -183,6 +183,7 @@ export const player: Translation["player"] = {
   overlay_axes: "Körperachsen",
   overlay_aabb: "Hüllquader",
   overlay_joints: "Gelenke",
+  overlay_cracks: "Risse",
   overlay_islands: "Inseln",
   overlay_sleep: "Ruhe",
   overlay_names: "Namen",

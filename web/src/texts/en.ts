@@ -151,6 +151,7 @@ export const player = {
   overlay_axes: "Body axes",
   overlay_aabb: "Bounding boxes",
   overlay_joints: "Joints",
+  overlay_cracks: "Cracks",
   overlay_islands: "Islands",
   overlay_sleep: "Sleep",
   overlay_names: "Names",

@@ -183,6 +183,7 @@ export const player: Translation["player"] = {
   overlay_axes: "Ejes del cuerpo",
   overlay_aabb: "Cajas envolventes",
   overlay_joints: "Articulaciones",
+  overlay_cracks: "Grietas",
   overlay_islands: "Islas",
   overlay_sleep: "Reposo",
   overlay_names: "Nombres",

@@ -183,6 +183,7 @@ export const player: Translation["player"] = {
   overlay_axes: "Axes du solide",
   overlay_aabb: "Boîtes englobantes",
   overlay_joints: "Liaisons",
+  overlay_cracks: "Fissures",
   overlay_islands: "Îlots",
   overlay_sleep: "Repos",
   overlay_names: "Noms",

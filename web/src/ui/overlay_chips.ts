@@ -38,13 +38,14 @@ const kinds: OverlayKind[] = [
   { name: "axes", makes_sense: dynamic },
   { name: "aabb", makes_sense: always },
   { name: "joints", makes_sense: (run) => run.joint_marks.length > 0 },
+  { name: "cracks", makes_sense: (run) => run.cracks.length > 0 },
   { name: "islands", makes_sense: has_contacts },
   { name: "sleep", makes_sense: sleeps },
   { name: "names", makes_sense: always },
 ];
 
 /** At first only these and the ones that are on; the others behind "More". */
-const common: OverlayName[] = ["velocity", "momentum", "angular-momentum", "omega", "impulses", "forces", "joints", "contacts", "trails"];
+const common: OverlayName[] = ["velocity", "momentum", "angular-momentum", "omega", "impulses", "forces", "joints", "cracks", "contacts", "trails"];
 
 function overlays_of(clip: Clip): OverlayName[] {
   return kinds.filter((kind) => clip.runs.some((run) => kind.makes_sense(run))).map((kind) => kind.name);
