@@ -154,8 +154,9 @@ void FractureStage::find_loads(const StepContext& step, ContactDetection& detect
         add(joint.a, -joint.force, -joint.torque, joint.point, no_manifold);
         add(joint.b, joint.force, joint.torque, joint.point, no_manifold);
     }
-    std::stable_sort(loads_.begin(), loads_.end(),
-                     [](const PieceLoad& l, const PieceLoad& r) { return l.entry < r.entry; });
+    const auto by_entry = [](const PieceLoad& l, const PieceLoad& r) { return l.entry < r.entry; };
+    if (!std::is_sorted(loads_.begin(), loads_.end(), by_entry))
+        std::stable_sort(loads_.begin(), loads_.end(), by_entry);
 }
 
 void FractureStage::yield(const StepContext& step, ContactDetection& detection, MotionStage& motion) {
@@ -208,7 +209,8 @@ std::optional<BondGraph> FractureStage::examine(std::uint32_t entry, std::span<c
     const auto may_break = [&](std::uint32_t i) {
         return bodies[i].breakable && !bodies[i].asleep && body.may_break(i);
     };
-    std::vector<Load> now;
+    std::vector<Load>& now = now_;
+    now.clear();
     double size = 0.0;
     for (const PieceLoad& l : piece_loads)
         if (may_break(l.piece)) now.push_back(l.load);
@@ -227,7 +229,8 @@ std::optional<BondGraph> FractureStage::examine(std::uint32_t entry, std::span<c
     }
     if (now.empty() || !changed(now, last_[entry], size)) return std::nullopt;
     Examined& last = last_[entry];
-    last = {std::move(now), 0.0};
+    last.loads.swap(now);
+    last.utilization = 0.0;
 
     std::vector<Wrench> loads(body.cells());
     const auto put = [&](std::uint32_t cell, const Load& load) {

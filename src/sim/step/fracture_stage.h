@@ -52,9 +52,9 @@ public:
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [bodies, last, breaks, loads, event, exchanged] = self;
+        auto& [bodies, last, breaks, loads, now, event, exchanged] = self;
         archive.keep(bodies, breaks);
-        archive.scratch(loads, event, exchanged);
+        archive.scratch(loads, now, event, exchanged);
         for (auto& load : last) archive.keep(load);
     }
 
@@ -100,6 +100,7 @@ private:
     std::vector<Examined> last_;  // by entry
     std::vector<BreakRecord> breaks_;
     std::vector<PieceLoad> loads_;          // of the step, by entry
+    std::vector<Load> now_;                 // of the body at hand
     BlowResult event_;                      // of the last event
     std::vector<std::uint32_t> exchanged_;  // by events
 };
