@@ -64,6 +64,7 @@ Json run_json(const PageRun& run, const PageClip& clip, MeshTable& meshes, Array
               {"overlays", make_overlays(run)}};
     if (!run.pace.empty()) json["pace"] = run.pace;
     if (Json cracks = make_crack_marks(run.scene, arrays); !cracks.empty()) json["cracks"] = std::move(cracks);
+    if (run.scene.water) json["water"] = make_water(run.scene);
     if (run.scene.environment) json["environment"] = make_environment(*run.scene.environment, arrays);
     if (run.scene.output.exposure) json["exposure"] = *run.scene.output.exposure;
     if (run.scene.output.tone == ToneCurve::linear) json["tone"] = "linear";

@@ -316,6 +316,17 @@ Json make_camera(const PageRun& run, ArrayStore& arrays) {
     return json;
 }
 
+Json make_water(const SceneDescription& scene) {
+    const WaterSurface surface(*scene.water, scene.simulation.gravity.norm());
+    Json waves = Json::array();
+    for (const WaterSurface::Wave& wave : surface.waves())
+        waves.push_back({{"k", {wave.k.x(), wave.k.z()}},
+                         {"amplitude", wave.amplitude},
+                         {"rate", wave.rate},
+                         {"phase", wave.phase}});
+    return {{"level", surface.level()}, {"color", to_string(scene.water->color)}, {"waves", std::move(waves)}};
+}
+
 Json make_overlays(const PageRun& run) {
     const OverlayDescription& overlay = run.scene.overlay;
     Json show = Json::array(), bodies = Json::array(), scale, color, points = Json::array();

@@ -31,6 +31,8 @@ ArrayStore::Json make_light(const PageRun& run);
 ArrayStore::Json make_cords(const PageRun& run);
 ArrayStore::Json make_camera(const PageRun& run, ArrayStore& arrays);
 ArrayStore::Json make_overlays(const PageRun& run);
+/// Precondition: the scene has water.
+ArrayStore::Json make_water(const SceneDescription& scene);
 
 /// Three numbers.
 ArrayStore::Json vector_json(const Vec3& v);

@@ -247,6 +247,7 @@ export function make_synthetic_run(restitution: number): Run {
       meshes: [], textures: [],
       light: { direction: [-0.4, -0.8, -0.45], shadows: true },
       environment: null,
+      water: null,
       exposure: 0,
       tone: "filmic",
       camera_moves: false,

@@ -72,12 +72,29 @@ export interface Scene {
   textures: Texels[];
   light: Light;
   environment: Environment | null;
+  water: Water | null;
   /** Stops. */
   exposure: number;
   tone: "filmic" | "linear";
   /** Whether the camera moves by itself: keyframes, an orbit or a followed body. */
   camera_moves: boolean;
   camera(time: number): Camera;
+}
+
+/** Its surface is level + sum of amplitude cos(k . (x, z) - rate t + phase). */
+export interface Water {
+  /** m. */
+  level: number;
+  color: string;
+  waves: {
+    /** 1/m, along x and z. */
+    k: [number, number];
+    /** m. */
+    amplitude: number;
+    /** rad/s. */
+    rate: number;
+    phase: number;
+  }[];
 }
 
 /** Light and background of an image or colors, linear. */

@@ -1,6 +1,6 @@
 // The JSON header of the clip data, as src/page writes it.
 import type { ArrayReference, PredictedReference } from "./container.ts";
-import type { Body, Cord, Camera, EnergyTable, JointMarks, OverlaySettings, RunSettings, Vec3, Light } from "./clip.ts";
+import type { Body, Cord, Camera, EnergyTable, JointMarks, OverlaySettings, RunSettings, Vec3, Light, Water } from "./clip.ts";
 
 export interface ClipHeader {
   format: number;
@@ -26,6 +26,7 @@ export interface RunHeader {
   cords: Cord[];
   light: Light;
   environment?: EnvironmentHeader;
+  water?: Water;
   exposure?: number;
   tone?: "filmic" | "linear";
   camera: Camera & { quantum?: number; frames?: PredictedReference[] };

@@ -109,6 +109,7 @@ export function read_scene(run: RunHeader, reader: Reader, meshes: Mesh[], textu
     textures,
     light: run.light,
     environment: read_environment(run.environment, reader),
+    water: run.water ?? null,
     exposure: run.exposure ?? 0,
     tone: run.tone ?? "filmic",
     camera_moves: run.camera.frames !== undefined,

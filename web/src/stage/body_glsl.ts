@@ -199,6 +199,9 @@ void main() {
   light += u_glow;
 #endif
   light = in_fog(light, to_eye, squared);
+#ifdef WATER
+  light = through_water(light, v_world);
+#endif
   pixel = vec4(mix(displayed(light), v_tint.rgb, v_tint.w), 1.0);
 #ifdef TRANSLUCENT
   float share = u_opacity;

@@ -66,6 +66,9 @@ void main() {
   light += u_glow;
 #endif
   light = in_haze(light, to_eye, squared);
+#ifdef WATER
+  light = through_water(light, v_world);
+#endif
   pixel = vec4(dithered(displayed(light)), 1.0);
 }
 `;
@@ -86,6 +89,12 @@ in vec3 v_ray;
 layout(location = 0) out highp vec4 pixel;
 void main() {
   vec3 ray = normalize(v_ray);
-  pixel = vec4(dithered(displayed(behind(ray))), 1.0);
+  vec3 light = behind(ray);
+#ifdef WATER
+  light = through_water(light, cameraPosition + 1e5 * ray);
+  float away = (cameraPosition.y - u_water.w) / -ray.y;   // of the surface, which ends before the horizon
+  if (ray.y < 0.0 && away > 0.0) light = in_haze(light, -ray, away * away);
+#endif
+  pixel = vec4(dithered(displayed(light)), 1.0);
 }
 `;

@@ -2,13 +2,14 @@
 import * as THREE from "three";
 import type { Environment, Light, LightTexels, MeshPaint, MeshTexture, Scene, Texels, Vec3 } from "../data/clip.ts";
 import type { Look } from "./body_parts.ts";
-import { bytes } from "./color.ts";
+import { bytes, from_text, to_linear } from "./color.ts";
 import {
   body_fragment_glsl, body_vertex_glsl, depth_fragment_glsl, depth_vertex_glsl, outline_fragment_glsl, outline_vertex_glsl,
 } from "./body_glsl.ts";
 import { plane_fragment_glsl, plane_vertex_glsl, sky_fragment_glsl, sky_vertex_glsl } from "./ground_glsl.ts";
 import { occlusion_fragment_glsl, occlusion_vertex_glsl } from "./occlusion_glsl.ts";
 import { theme_of, type Theme } from "./theme.ts";
+import { water_fragment_glsl, water_vertex_glsl } from "./water_glsl.ts";
 
 export type BodyKind = "box" | "ball" | "mesh";
 /** As limits::lamps of src/scene/toml/limits.h. */
@@ -81,12 +82,14 @@ function light_texture({ width, height, light }: LightTexels): THREE.DataTexture
 type Uniforms = Record<string, THREE.IUniform>;
 
 /** As scene_defines() of src/render/environment: all programs of a stage have them. */
-function defines_of_scene({ environment, exposure, tone }: Scene): Record<string, string> {
+function defines_of_scene({ environment, exposure, tone, water }: Scene): Record<string, string> {
   return {
     ...(environment?.around && { ENVIRONMENT: "" }),
     ...(environment && environment.background !== "sky" && { BACKGROUND: environment.background === "colors" ? "1" : "2" }),
     ...(exposure !== 0 && { EXPOSURE: (2 ** exposure).toExponential() }),
     ...(tone === "linear" && { LINEAR_TONE: "" }),
+    ...(water && { WATER: "" }),
+    ...(water && water.waves.length > 0 && { WAVES: String(water.waves.length) }),
   };
 }
 
@@ -130,6 +133,8 @@ export class Materials {
   readonly outline: Record<BodyKind, THREE.ShaderMaterial>;
   readonly depth: THREE.ShaderMaterial;
   readonly sky: THREE.ShaderMaterial;
+  /** See u_waves of shading_glsl.ts. */
+  readonly waves: THREE.Vector4[];
 
   private readonly of_scene: Uniforms;
   private readonly defines: Record<string, string>;
@@ -138,7 +143,13 @@ export class Materials {
 
   /** `scene`: its environment and tone are those of the stage. `several_lights`: in one of the scenes. */
   constructor(scene: Scene, private readonly several_lights = false) {
-    this.of_scene = uniforms_of(scene.environment);
+    const { environment, water } = scene;
+    this.waves = (water?.waves ?? []).map(() => new THREE.Vector4());
+    this.of_scene = {
+      ...uniforms_of(environment),
+      ...(water && { u_water: { value: new THREE.Vector4(...to_linear(from_text(water.color)), water.level) } }),
+      ...(this.waves.length > 0 && { u_waves: { value: this.waves } }),
+    };
     this.defines = defines_of_scene(scene);
     this.solid = this.for_kinds((kind) => this.body(kind, false));
     this.ghost = this.for_kinds((kind) => this.body(kind, true));
@@ -199,6 +210,13 @@ export class Materials {
       if (look.opacity !== undefined) Object.assign(material, { ...translucent, depthWrite: true });
       this.looks.set(key, material);
     }
+    return material;
+  }
+
+  /** Precondition: the scene has water. */
+  water_surface(): THREE.ShaderMaterial {
+    const material = this.make(water_vertex_glsl, water_fragment_glsl, { side: THREE.DoubleSide, ...translucent });
+    material.uniforms.u_foot = { value: new THREE.Vector2() };
     return material;
   }
 

@@ -102,8 +102,13 @@ export class PlaneSet {
     }
   }
 
+  /** Half of the square, m. */
+  get reach(): number {
+    return reach * this.fog_distance;
+  }
+
   /** Far enough for the whole square, m. */
   get far(): number {
-    return 1.5 * reach * this.fog_distance;
+    return 1.5 * this.reach;
   }
 }

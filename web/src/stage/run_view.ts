@@ -16,6 +16,7 @@ import type { ScreenUniforms } from "./screen_shapes.ts";
 import { casts_shadow, ShadowMap } from "./shadow_map.ts";
 import { Sky } from "./sky.ts";
 import type { Moment } from "./moment.ts";
+import { WaterSurface } from "./water_surface.ts";
 
 /** Of other runs in a comparison by ghosts. */
 const run_opacity = 0.6;
@@ -37,6 +38,7 @@ export class RunView {
   private readonly sky: Sky;
   private readonly occlusion: OcclusionSet[];
   private readonly shadow: ShadowMap | null;
+  private readonly water: WaterSurface | null;
   /** Ghosts of other runs, by their index. */
   private readonly others = new Map<number, { run: Run; set: BodySet; geometries: Geometries }>();
   private shadow_time = Number.NaN;
@@ -61,6 +63,8 @@ export class RunView {
     this.overlays = new OverlayView(run, this.size, this.geometries, materials, uniforms);
     this.scene.add(this.solids.group, this.outline.group, this.planes.group, this.sky.mesh, this.overlays.group);
     for (const { mesh } of this.occlusion) this.scene.add(mesh);
+    this.water = scene.water ? new WaterSurface(scene.water, materials, this.planes.reach) : null;
+    if (this.water) this.scene.add(this.water.mesh);
   }
 
   /** `others`: runs whose bodies are shown as ghosts, by their index. */
@@ -94,6 +98,7 @@ export class RunView {
     camera.updateProjectionMatrix();
     camera.updateMatrixWorld();
     this.planes.update(this.run.motion, time, view.eye);
+    this.water?.update(time, view.eye);
     this.sky.update(camera);
   }
 
@@ -130,6 +135,7 @@ export class RunView {
   dispose(): void {
     for (const part of [this.solids, this.outline, this.planes, this.sky, ...this.occlusion, this.overlays, this.geometries]) part.dispose();
     this.shadow?.dispose();
+    this.water?.dispose();
     for (const { set, geometries } of this.others.values()) {
       set.dispose();
       geometries.dispose();

@@ -41,6 +41,21 @@ ${surface_maps_place}
 #endif
 `;
 
+export const water_height_glsl = /* glsl */ `
+uniform vec4 u_water;           // color, linear; m, level
+#ifdef WAVES
+uniform vec4 u_waves[WAVES];    // k, 1/m; amplitude, m; phase at the origin, rad
+#endif
+
+float water_height(vec2 at) {
+  float height = u_water.w;
+#ifdef WAVES
+  for (int i = 0; i < WAVES; ++i) height += u_waves[i].z * cos(dot(u_waves[i].xy, at) + u_waves[i].w);
+#endif
+  return height;
+}
+`;
+
 export const light_glsl = /* glsl */ `
 #define SUNLIT
 ${sky}
@@ -77,6 +92,24 @@ vec3 behind(vec3 way) {
   return u_sky * sky(way.y, dot(way, u_to_light));
 #endif
 }
+
+#ifdef WATER
+${water_height_glsl}
+// Light of a place whose view may pass through water: tinted by its way through it (Beer's law).
+vec3 through_water(vec3 light, vec3 world) {
+  float high = world.y - water_height(world.xz), eye_high = cameraPosition.y - water_height(cameraPosition.xz);
+  float way = distance(world, cameraPosition), wet = max(-high, 0.0) + max(-eye_high, 0.0);
+  if (wet == 0.0) return light;
+  if (high * eye_high < 0.0) way *= wet / (abs(high) + abs(eye_high));
+#ifdef ENVIRONMENT
+  vec3 sun = v_sun * u_sun_share, around = light_around(vec3(0.0, 1.0, 0.0), u_around);
+#else
+  vec3 sun = v_sun, around = sky_light;
+#endif
+  vec3 kept = exp(log(max(u_water.rgb, 0.004)) / water_clear_way * min(way, 1e6));
+  return mix(u_water.rgb * (around + sun * max(u_to_light.y, 0.0)), light, kept);
+}
+#endif
 
 vec3 in_fog(vec3 light, vec3 to_eye, float squared) {
   float share = fog_share(squared, u_fog);
