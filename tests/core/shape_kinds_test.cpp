@@ -50,6 +50,7 @@ const std::map<std::string, std::string> known = {
     {"sim/event_driven/neighbor_boxes.cpp", "half-spaces: not in a tree of bounds"},
     // Compounds are taken apart; the data of meshes is shared.
     {"app/cli/run_notes.cpp", "meshes: the source of their mass"},
+    {"overlay/crack_sketch.cpp", "meshes: the faces of pieces"},
     {"overlay/overlay_painter.cpp", "parts of compounds"},
     {"render/aov/visibility_buffer.cpp", "meshes: holes of their textures"},
     {"render/aov/shape_instance.cpp", "parts of compounds; copies share their mesh"},
