@@ -161,6 +161,7 @@ void World::State::run_stages(const StepContext& step) {
     const std::uint64_t changes = sleep.changes() + joints.changes();
     forces.begin(step);
     forces.wake(step);
+    if (fracture.blast(step, detection, *motion)) forces.begin(step);
     begin_joints(step);
     if (sleep.changes() + joints.changes() != changes) detection.out_of_date();
     detection.update(step, *motion);            // pairs: broad phase, exact manifolds, islands

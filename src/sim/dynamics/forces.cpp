@@ -131,6 +131,7 @@ void ForceField::light_explosions(const std::vector<Body>& bodies, double from, 
 
 void ForceField::move_points(std::size_t from, const std::function<std::uint32_t(const Vec3& point)>& to) {
     for (const ForceDescription& force : std::exchange(at_points_[from], {})) {
+        if (force.body == of_explosion) continue;  // each body takes its own
         const std::uint32_t body = to(force.point);
         at_points_[body].push_back(force);
         pushed_.push_back(body);
@@ -141,7 +142,7 @@ void ForceField::move_points(std::size_t from, const std::function<std::uint32_t
 void ForceField::each_point(std::size_t index, double time,
                             const std::function<void(const ForceDescription&)>& use) const {
     for (const ForceDescription& f : at_points_[index])
-        if (time >= f.start && time < f.end) use(f);
+        if (f.body != of_explosion && time >= f.start && time < f.end) use(f);
 }
 
 void ForceField::hold_pairs(const std::vector<Body>& bodies, double from, double to) {

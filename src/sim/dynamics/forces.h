@@ -38,6 +38,7 @@ public:
     void move_points(std::size_t from, const std::function<std::uint32_t(const Vec3& point)>& to);
     /// Calls `use` for each force at a point of the body at a time, s.
     void each_point(std::size_t index, double time, const std::function<void(const ForceDescription&)>& use) const;
+    const Explosions& explosions() const { return explosions_; }
     bool has_potential() const { return !place_.empty() || !pairs_.empty() || water_; }
     /// J, in fields and in forces between bodies.
     double potential(const std::vector<Body>& bodies) const;

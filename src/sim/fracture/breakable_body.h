@@ -39,6 +39,7 @@ public:
     const MassProperties& mass_of(std::uint32_t cell) const { return cells_[cell].mass; }
     /// Frame: that of the body, with its origin in the center of mass of the cell.
     const Polyhedron& hull_of(std::uint32_t cell) const;
+    const CollisionShape& collider_of(std::uint32_t cell) const { return cells_[cell].collider; }
     /// False for a piece that has broken as often as it may, or has no bonds.
     bool may_break(std::uint32_t piece) const;
     bool in_pieces() const { return in_pieces_; }

@@ -8,6 +8,11 @@ namespace tumble {
 struct Wrench {
     Vec3 force = Vec3::Zero();   // N
     Vec3 torque = Vec3::Zero();  // N m, about the center of mass
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [force, torque] = self;
+        archive.keep(force, torque);
+    }
 };
 
 /// Integral of a wrench over a span of time; world frame.

@@ -19,12 +19,45 @@ namespace {
 /// has left, are not examined again. Limits the cost of resting bodies.
 constexpr double changed_load = 0.01;
 
+/// Times of a blow after which the mean of a constant load has come within e^-7, 0.1 %, of it.
+constexpr double settling_times = 7.0;
+
 }  // namespace
 
 // Only bodies that break are resolved here: each time the contacts are found again, of one body less.
 void FractureStage::strike(const StepContext& step, ContactDetection& detection, MotionStage& motion) {
     if (empty()) return;
     while (strike_one(step, detection, motion)) detection.update(step, motion);
+}
+
+// Each cell takes its own impulse, as the pieces will.
+bool FractureStage::blast(const StepContext& step, ContactDetection& detection, MotionStage& motion) {
+    if (empty()) return false;
+    const auto explosions = step.forces.field().explosions().within(step.start(), step.end());
+    if (explosions.empty()) return false;
+    std::vector<BreakableBody::Parting> partings;
+    for (std::uint32_t entry = 0; entry < bodies_.size(); ++entry) {
+        const BreakableBody& body = bodies_[entry];
+        std::vector<Wrench> loads(body.cells());
+        for (std::uint32_t cell = 0; cell < body.cells(); ++cell) {
+            const Body& piece = step.set.bodies[body.piece_of(cell)];
+            if (!piece.dynamic()) continue;
+            const Vec3& center = body.mass_of(cell).center_of_mass;
+            const Pose pose{piece.origin() + piece.rotation * center, piece.rotation};
+            for (const ExplosionDescription& explosion : explosions) {
+                const Vec3 force = impulse_of(explosion, body.collider_of(cell), pose) / body.blow_time();
+                const Vec3 arm = explosion.center - pose.position;
+                loads[cell].force += piece.rotation.transpose() * force;
+                loads[cell].torque += piece.rotation.transpose() * arm.cross(force);
+            }
+        }
+        std::vector<BreakRecord> breaks;
+        double utilization = 0.0;
+        if (std::optional<BondGraph> graph = cut(entry, loads, step, breaks, utilization))
+            part(entry, std::move(*graph), breaks, step, partings);
+    }
+    finish(partings, step, detection, motion);
+    return !partings.empty();
 }
 
 // True if a breakable body is hit faster than resting contact.
@@ -171,18 +204,28 @@ void FractureStage::yield(const StepContext& step, ContactDetection& detection, 
         std::vector<BreakRecord> breaks;
         std::optional<BondGraph> graph = examine(entry, loads, step, breaks);
         if (!graph) continue;
-        const std::size_t before = partings.size();
-        for (BreakableBody::Parting& parting : bodies_[entry].part(std::move(*graph), step.set.bodies)) {
-            if (step.log) step.log->hand_over(parting.index, parting.whole.dynamic(), parting.pieces, step.set.bodies);
-            partings.push_back(std::move(parting));
-        }
-        last_[entry] = {};
-        if (partings.size() == before) continue;
-        for (BreakRecord& r : breaks) {
-            r.pieces = bodies_[entry].pieces().size();
-            breaks_.push_back(r);
-        }
+        part(entry, std::move(*graph), breaks, step, partings);
     }
+    finish(partings, step, detection, motion);
+}
+
+void FractureStage::part(std::uint32_t entry, BondGraph graph, std::vector<BreakRecord>& breaks,
+                         const StepContext& step, std::vector<BreakableBody::Parting>& partings) {
+    const std::size_t before = partings.size();
+    for (const std::uint32_t i : bodies_[entry].pieces()) step.sleep.wake(i, step.set.bodies);
+    for (BreakableBody::Parting& parting : bodies_[entry].part(std::move(graph), step.set.bodies)) {
+        if (step.log) step.log->hand_over(parting.index, parting.whole.dynamic(), parting.pieces, step.set.bodies);
+        partings.push_back(std::move(parting));
+    }
+    if (partings.size() == before) return;
+    for (BreakRecord& r : breaks) {
+        r.pieces = bodies_[entry].pieces().size();
+        breaks_.push_back(r);
+    }
+}
+
+void FractureStage::finish(std::span<const BreakableBody::Parting> partings, const StepContext& step,
+                           ContactDetection& detection, MotionStage& motion) {
     if (partings.empty()) return;
     bodies_.attach(step.joints.joints(), step.set.bodies);
     exchange(changed_bodies(partings), step, detection);
@@ -227,11 +270,35 @@ std::optional<BondGraph> FractureStage::examine(std::uint32_t entry, std::span<c
             own.force = piece.rotation.transpose() * step.settings.gravity;
         if (!own.force.isZero(0.0)) now.push_back(own);
     }
-    if (now.empty() || !changed(now, last_[entry], size)) return std::nullopt;
     Examined& last = last_[entry];
-    last.loads.swap(now);
+    if (now.empty() && last.loads.empty()) return std::nullopt;
+    const bool sleeps = std::none_of(body.pieces().begin(), body.pieces().end(), may_break);
+    const double share = std::min(1.0, step.h / body.blow_time());  // of a step in the mean
+    // Asleep it keeps its last loads.
+    if (!sleeps && changed(now, last, size))
+        last.settling = share < 1.0 ? int(settling_times / share) : 0;
+    else if (last.settling == 0)
+        return std::nullopt;
+    else
+        --last.settling;
     last.utilization = 0.0;
+    if (!sleeps) {
+        last.loads.swap(now);
+        last.cells = loads_of_cells(entry, piece_loads, step);
+    }
+    last.means.resize(last.cells.size());
+    for (std::size_t cell = 0; cell < last.cells.size(); ++cell) {
+        Wrench& mean = last.means[cell];
+        mean.force += share * (last.cells[cell].force - mean.force);
+        mean.torque += share * (last.cells[cell].torque - mean.torque);
+    }
+    return cut(entry, last.means, step, breaks, last.utilization);
+}
 
+std::vector<Wrench> FractureStage::loads_of_cells(std::uint32_t entry, std::span<const PieceLoad> piece_loads,
+                                                  const StepContext& step) const {
+    const std::vector<Body>& bodies = step.set.bodies;
+    const BreakableBody& body = bodies_[entry];
     std::vector<Wrench> loads(body.cells());
     const auto put = [&](std::uint32_t cell, const Load& load) {
         loads[cell].force += load.force;
@@ -266,6 +333,12 @@ std::optional<BondGraph> FractureStage::examine(std::uint32_t entry, std::span<c
         loads[cell].force -= own.mass * w.cross(w.cross(own.center_of_mass - piece.center_of_mass));
         loads[cell].torque -= w.cross(own.inertia * w);
     }
+    return loads;
+}
+
+std::optional<BondGraph> FractureStage::cut(std::uint32_t entry, std::span<const Wrench> loads, const StepContext& step,
+                                            std::vector<BreakRecord>& breaks, double& weakest) {
+    BreakableBody& body = bodies_[entry];
     std::optional<BondGraph> left;
     for (bool more = true; more;) {
         BondGraph& graph = left ? *left : body.graph();
@@ -274,7 +347,7 @@ std::optional<BondGraph> FractureStage::examine(std::uint32_t entry, std::span<c
         for (std::uint32_t k = 0; k < graph.bond_count(); ++k)
             if (graph.intact(k) && body.may_break(body.piece_of(graph.bond(k).a)))
                 utilization[k] = graph.utilization(k, wrenches[k]);
-        if (!left) last.utilization = *std::max_element(utilization.begin(), utilization.end());
+        if (!left) weakest = *std::max_element(utilization.begin(), utilization.end());
         const std::vector<std::uint32_t> fails = failing_first(graph, utilization);
         for (const std::uint32_t k : fails) {
             BreakRecord r = body.record(k, wrenches[k]);

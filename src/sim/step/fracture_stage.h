@@ -28,6 +28,10 @@ public:
     bool empty() const { return bodies_.empty(); }
     const BreakableBodies& bodies() const { return bodies_; }
 
+    /// Parts the bodies that the explosions of the step break. Returns whether any does: then the explosions act on the
+    /// pieces.
+    bool blast(const StepContext& step, ContactDetection& detection, MotionStage& motion);
+
     /// Resolves the blows of the step that break a body; others are left to the impacts.
     void strike(const StepContext& step, ContactDetection& detection, MotionStage& motion);
 
@@ -68,15 +72,18 @@ private:
             archive.keep(force, torque, point);
         }
     };
-    /// The loads of a body when its bonds were last examined, with its rotation, and how near the weakest was to
-    /// failing.
+    /// The loads of a body when its bonds were last examined, and how near the weakest was to failing. An impulse is no
+    /// lasting load: the cells bear the mean of their loads over the time of a blow.
     struct Examined {
         std::vector<Load> loads;
+        std::vector<Wrench> cells, means;  // N and N m, by cell: of the loads, and their means
+        int settling = 0;                  // steps until these are equal
         double utilization = 0.0;
         template <class Archive, class Self>
         static void visit(Archive& archive, Self& self) {
-            auto& [loads, utilization] = self;
-            archive.keep(loads, utilization);
+            auto& [loads, cells, means, settling, utilization] = self;
+            archive.keep(loads, cells, means, utilization);
+            archive.count(settling);
         }
     };
     static constexpr std::uint32_t no_manifold = UINT32_MAX;
@@ -88,6 +95,16 @@ private:
     static Load load_on(const Body& body, const Vec3& force, const Vec3& torque, const Vec3& point);
     void find_loads(const StepContext& step, ContactDetection& detection);
     bool changed(const std::vector<Load>& now, const Examined& last, double size) const;
+    /// The bonds of an entry without those that fail under loads on its cells (N, N m); nothing if none does.
+    std::optional<BondGraph> cut(std::uint32_t entry, std::span<const Wrench> loads, const StepContext& step,
+                                 std::vector<BreakRecord>& breaks, double& utilization);
+    /// Takes the bonds over; the pieces go on as the body moved.
+    void part(std::uint32_t entry, BondGraph graph, std::vector<BreakRecord>& breaks, const StepContext& step,
+              std::vector<BreakableBody::Parting>& partings);
+    void finish(std::span<const BreakableBody::Parting> partings, const StepContext& step, ContactDetection& detection,
+                MotionStage& motion);
+    std::vector<Wrench> loads_of_cells(std::uint32_t entry, std::span<const PieceLoad> loads,
+                                       const StepContext& step) const;
     std::optional<BondGraph> examine(std::uint32_t entry, std::span<const PieceLoad> loads, const StepContext& step,
                                      std::vector<BreakRecord>& breaks);
     bool strike_one(const StepContext& step, ContactDetection& detection, MotionStage& motion);
