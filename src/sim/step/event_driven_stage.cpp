@@ -24,7 +24,9 @@ std::int64_t EventDrivenStage::run_events(const StepContext& step, std::int64_t 
 }
 
 std::int64_t EventDrivenStage::skip_steps(const StepContext& step, std::int64_t to) {
-    if (events_.stepping(step.set.bodies) || step.forces.field().ever_changes()) return step.index;
+    // Bodies that can break are examined at each step: rotation and weight load them too.
+    if (events_.stepping(step.set.bodies) || step.forces.field().ever_changes() || !step.fracture.empty())
+        return step.index;
     return run_events(step, to);
 }
 
