@@ -28,9 +28,12 @@ struct Coverage : FieldVisitor {
     void since(bool, const auto&... members) { (add(members), ...); }
     void add(const auto& member) {
         const auto offset = std::size_t(reinterpret_cast<const std::byte*>(&member) - start);
+        ASSERT_LE(offset + sizeof member, covered.size()) << "a field is no member of its struct";
         ++count;
         std::fill_n(covered.begin() + std::ptrdiff_t(offset), sizeof member, true);
     }
+
+    void add(std::string_view) {}  // a key that is hashed with its member
 
     const std::byte* start;
     std::vector<bool> covered;
