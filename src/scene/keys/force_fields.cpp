@@ -156,8 +156,6 @@ void read_pair_forces(const TomlTable& root, SceneDescription& scene) {
     constexpr double magnetic_constant = 1e-7;                 // N/A^2, mu_0 / (4 pi)
     const auto list = root.find("pair_force");
     if (!list) return;
-    if (scene.simulation.impacts == ImpactMode::exact)
-        list->origin().fail("needs impacts = \"stepped\": between events a body moves alone");
     const BodyIndex bodies(scene.bodies);
     for (TomlTable& table : list->tables("; write [[pair_force]] for each")) {
         table.set_title("[[pair_force]]");
@@ -176,8 +174,6 @@ void read_pair_forces(const TomlTable& root, SceneDescription& scene) {
 void read_explosions(const TomlTable& root, SceneDescription& scene) {
     const auto list = root.find("explosion");
     if (!list) return;
-    if (scene.simulation.impacts == ImpactMode::exact)
-        list->origin().fail("needs impacts = \"stepped\": a flight between events knows no later impulse");
     for (TomlTable& table : list->tables("; write [[explosion]] for each")) {
         table.set_title("[[explosion]]");
         scene.explosions.push_back(read_all_fields<ExplosionDescription>(table));

@@ -140,13 +140,10 @@ Trajectory Trajectory::uniform(const Body& body, const Vec3& velocity, const Vec
     return path;
 }
 
-Trajectory Trajectory::towards(const Body& body, const Motion& end, double span, bool torque_free) {
+Trajectory Trajectory::towards(const Body& body, const Motion& end, double span) {
     Trajectory path;
     path.move_along_cubic(body, end, span);
-    if (torque_free)
-        path.turn_freely(body);
-    else
-        path.turn_uniformly(body.orientation, rotation_vector(end.orientation * body.orientation.conjugate()) / span);
+    path.turn_freely(body);
     return path;
 }
 

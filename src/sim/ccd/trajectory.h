@@ -87,10 +87,9 @@ public:
     static Trajectory drift(const Body& body, const Vec3& velocity);
     /// From the body's present pose with constant velocities (m/s, rad/s).
     static Trajectory uniform(const Body& body, const Vec3& velocity, const Vec3& angular_velocity);
-    /// From the body's present pose to the motion `end` after `span` s: cubic in the center (Hermite), error O(span^4)
-    /// in between. For bodies under nonconstant forces. Without torque the rotation is free, in closed form; otherwise
-    /// uniform, error O(span^2) in between.
-    static Trajectory towards(const Body& body, const Motion& end, double span, bool torque_free);
+    /// From the body's present pose to the motion `end` after `span` s without torque: cubic in the center (Hermite),
+    /// error O(span^4) in between, and free rotation in closed form.
+    static Trajectory towards(const Body& body, const Motion& end, double span);
     /// From the body's present motion to the motion `end` after `span` s: cubic in the center and in the rotation
     /// vector, error O(span^4) in between. Turns of a radian and more are uniform, with an error O(span^2).
     static Trajectory between(const Body& body, const Motion& end, double span);

@@ -159,6 +159,10 @@ double ForceField::potential(const std::vector<Body>& bodies) const {
     return sum;
 }
 
+double ForceField::pair_rate(const std::vector<Body>& bodies, double time) const {
+    return pairs_.rate(PresentPairs(pairs_, bodies), time);
+}
+
 Wrench ForceField::held(std::size_t index) const {
     const auto members = pairs_.bodies();
     const auto found = std::lower_bound(members.begin(), members.end(), std::uint32_t(index));
@@ -333,11 +337,9 @@ Impulse ForceField::ending(std::size_t index, const Body& body, double from, dou
     return impulse(index, body, from, to, [&](const ForceDescription& f) { return !std::isinf(f.end); });
 }
 
-ForceField ForceField::without_points() const {
+ForceField ForceField::without_points(std::span<const std::uint32_t> bodies) const {
     ForceField field = *this;
-    field.pushed_.clear();
-    field.explosions_ = {};
-    for (auto& list : field.at_points_) list.clear();
+    for (const std::uint32_t i : bodies) field.at_points_[i].clear();
     return field;
 }
 

@@ -87,8 +87,9 @@ public:
     /// The impulse within [from, to) of the forces at points that end at some time, brief or not: such a force has a
     /// total impulse.
     Impulse ending(std::size_t index, const Body& body, double from, double to) const;
-    /// Without forces at points: for spans in which the forces at points have been applied already.
-    ForceField without_points() const;
+    bool has_points(std::size_t index) const { return !at_points_[index].empty(); }
+    /// Without the forces at points of these bodies: for spans in which they have been applied already.
+    ForceField without_points(std::span<const std::uint32_t> bodies) const;
 
     /// True if a point force on the body begins or ends within [from, to): such a body must be awake.
     bool changes(std::size_t index, double from, double to) const;
@@ -107,6 +108,11 @@ public:
         return (place_.empty() ? 0.0 : place_.rate({body.mass, at.position, at.velocity}, time)) +
                (water_ ? water_rate(index, body, at, time) : 0.0);
     }
+    /// Fastest rate at which a body passes centers of fields, and bodies with forces between each other pass, 1/s.
+    double passing_rate(const Body& body, double time) const {
+        return place_.empty() ? 0.0 : place_.passing_rate({body.mass, body.position, body.velocity}, time);
+    }
+    double pair_rate(const std::vector<Body>& bodies, double time) const;
     /// Number of parts of a span in which a body in water neither bobs, nor is braked, nor gets wet within one.
     double parts_in_water(std::size_t index, const Body& body, const FlightPoint& at, double from, double to) const;
     double water_rate(std::size_t index, const Body& body, const FlightPoint& at, double time) const;
@@ -115,9 +121,10 @@ public:
 
     const Vec3& gravity() const { return gravity_; }  // m/s^2
 
-    /// True if nothing but gravity ever acts on the body; true if forces at points ever act on any body.
+    /// True if nothing but gravity acts on the body: ever, but for explosions of other steps.
     bool only_gravity(std::size_t index) const { return plain(index) && at_points_[index].empty(); }
-    bool ever_changes() const { return !pushed_.empty(); }
+    /// True if some force can begin while all bodies are at rest.
+    bool ever_begins() const { return !pushed_.empty() || !place_.empty() || !pairs_.empty(); }
     /// Bodies with forces at points, and with explosions all dynamic bodies; ascending.
     std::span<const std::uint32_t> pushed() const { return pushed_; }
 

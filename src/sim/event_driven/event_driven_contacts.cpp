@@ -20,7 +20,7 @@ bool held(const Body& body) { return body.dynamic() && !body.flying && !body.asl
 
 }  // namespace
 
-bool EventDrivenMotion::take_off(const std::vector<Contact>& contacts, const std::vector<Gap>& gaps,
+void EventDrivenMotion::take_off(const std::vector<Contact>& contacts, const std::vector<Gap>& gaps,
                                  std::vector<Body>& bodies, const ForceField& forces, std::int64_t step) {
     supports_.assign(bodies.size(), {});
     // A body that rolls over a hill leaves it along the tangent in each step, by v^2 h^2 / 2 R: less than gravity's
@@ -28,16 +28,13 @@ bool EventDrivenMotion::take_off(const std::vector<Contact>& contacts, const std
     mark_held(
         contacts, gaps, bodies, free_motion(forces, {step, 0.0}), {settings_.gravity.norm(), h_, h_},
         [&](std::uint32_t k) { return events_[k].solved; }, supports_);
-    bool any = false;
     for (const std::uint32_t i : movers_) {
         if (!held(bodies[i]) || !supports_[i].none() || bodies[i].jointed) continue;
-        events_[i].pushed = false;
-        fly(i, bodies, forces, {step, 0.0});
+        bodies[i].flying = true;
+        events_[i].start = {step, 0.0};  // begin_step() finds the trajectory, together with those of others
         taken_off_.push_back(i);
-        any = true;
     }
     if (!groups_.empty()) take_off_groups(bodies, forces, step);
-    return any;
 }
 
 // Moves a body in contact uniformly to the end of the step. A clamped body moves slower: it ends where it would have
@@ -64,9 +61,10 @@ void EventDrivenMotion::begin_step(std::vector<Body>& bodies, const std::vector<
         const Body& body = bodies[i];
         events_[i].pushed = events_[i].solved = !body.flying && !body.asleep;
         if (body.flying) {
-            if (!events_[i].driven || events_[i].start == now) continue;
+            // An explosion ends a flight in closed form.
+            const bool goes_on = !events_[i].driven && forces.only_gravity(i);
+            if (goes_on || events_[i].start == now) continue;
             bring(i, bodies, now);
-            fly(i, bodies, forces, now);
         } else if (body.asleep) {
             continue;
         } else {
@@ -75,6 +73,7 @@ void EventDrivenMotion::begin_step(std::vector<Body>& bodies, const std::vector<
         }
         changed_.push_back(i);
     }
+    fly_changed(bodies, forces, now);
     predict_changed(bodies, now);
 }
 

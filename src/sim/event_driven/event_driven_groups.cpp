@@ -33,6 +33,7 @@ Bounds swept_bounds(const Body& body, const Trajectory& path, double span) {
 }  // namespace
 
 void EventDrivenMotion::join(JointSet& joints, std::vector<Body>& bodies, const ForceField& forces) {
+    driven_.begin_step(bodies, forces);
     if (joints.empty()) return;
     groups_.update(joints, bodies, forces);
     neighbor_boxes_.keep_apart(joints.apart());
@@ -173,7 +174,7 @@ void EventDrivenMotion::release_groups(std::vector<Body>& bodies, const ForceFie
 std::optional<ImpactCluster::Whereabouts> EventDrivenMotion::whereabouts(std::uint32_t i,
                                                                          const std::vector<Body>& bodies,
                                                                          const EventTime& now) const {
-    if (!flies_joined(i, bodies)) return std::nullopt;
+    if (!flies_driven(i, bodies)) return std::nullopt;
     const BodyEvent& f = events_[i];
     const double t = clock_.between(f.start, now), span = clock_.between(f.start, f.until);
     const double most = std::max(f.path.acceleration(0.0).norm(), f.path.acceleration(span).norm());
@@ -194,6 +195,10 @@ TimeOfImpact EventDrivenMotion::refine(std::uint32_t i, std::uint32_t j, const T
             const double since = clock_.between(events_[k].start, now);
             if (flies_joined(k, bodies)) {
                 paths[side] = groups_.path(k, since + from, since + to);
+                moving[side] = {&bodies[k], &paths[side], 0.0};
+            } else if (flies_driven(k, bodies)) {
+                const double time = clock_.seconds(now);
+                paths[side] = driven_.path(k, time + from, time + to);
                 moving[side] = {&bodies[k], &paths[side], 0.0};
             } else {
                 moving[side] = {&bodies[k], &events_[k].path, since + from};

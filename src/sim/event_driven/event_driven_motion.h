@@ -17,6 +17,7 @@
 #include "sim/contact/rolling/rolling_contact.h"
 #include "sim/dynamics/forces.h"
 #include "sim/event_driven/contact_transition.h"
+#include "sim/event_driven/driven_flights.h"
 #include "sim/event_driven/event_queue.h"
 #include "sim/event_driven/event_time.h"
 #include "sim/event_driven/group_flights.h"
@@ -66,8 +67,8 @@ public:
     void join(JointSet& joints, std::vector<Body>& bodies, const ForceField& forces);
     /// Groups of joined bodies end their flights of the step.
     void end_flights() { groups_.end_all(); }
-    /// Stepped bodies that no contact holds become ballistic at `step`. Returns whether any did.
-    bool take_off(const std::vector<Contact>& contacts, const std::vector<Gap>& gaps, std::vector<Body>& bodies,
+    /// Stepped bodies that no contact holds become ballistic at `step`.
+    void take_off(const std::vector<Contact>& contacts, const std::vector<Gap>& gaps, std::vector<Body>& bodies,
                   const ForceField& forces, std::int64_t step);
     /// True if any body needs stepping: one in contact, a moving kinematic one, one under varying forces.
     bool stepping(const std::vector<Body>& bodies) const;
@@ -104,8 +105,8 @@ public:
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [settings, clock, h, events, balls, half_spaces, movers, neighbor_boxes, queue, search, groups, cluster,
-               log, trace, totals, ccd_clamp, motions, islands, contact_solver, alone, contact_manifolds,
+        auto& [settings, clock, h, events, balls, half_spaces, movers, neighbor_boxes, queue, search, groups, driven,
+               cluster, log, trace, totals, ccd_clamp, motions, islands, contact_solver, alone, contact_manifolds,
                velocities_before, impacts_in_frame, frame, until, taken_off, changed, was_asleep, rolled, supports,
                at_start, strike] = self;
         archive.rebuilt(settings, clock, h, half_spaces, movers, log, motions, islands, at_start, strike);
@@ -117,7 +118,7 @@ public:
         archive.between(0, until, EventTime::last_step);
         archive.bodies(taken_off);
         archive.bodies(changed);
-        archive.scratch(groups, trace, totals, alone, contact_manifolds, was_asleep, rolled, supports);
+        archive.scratch(groups, driven, trace, totals, alone, contact_manifolds, was_asleep, rolled, supports);
     }
 
 private:
@@ -164,6 +165,13 @@ private:
 
     void start(std::uint32_t i, const Trajectory& path, const EventTime& now, const EventTime& until);
     void fly(std::uint32_t i, std::vector<Body>& bodies, const ForceField& forces, const EventTime& now);
+    void drive(std::uint32_t i, Body& body, const EventTime& now, const EventTime& end);
+    /// True if the body has states of its flight that are more exact than its trajectory.
+    bool flies_driven(std::uint32_t i, const std::vector<Body>& bodies) const {
+        return bodies[i].flying && events_[i].driven;
+    }
+    void fly_pairs(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now);
+    void fly_changed(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now);
     /// True if the body flies with a group of joined bodies.
     bool flies_joined(std::uint32_t i, const std::vector<Body>& bodies) const {
         return bodies[i].flying && groups_.group(i) != GroupFlights::none;
@@ -183,7 +191,7 @@ private:
     void solve_rest(const std::vector<std::uint32_t>& landed, std::vector<Body>& bodies, const ForceField& forces,
                     const EventTime& now);
     void give_rest_of_step(std::uint32_t k, std::vector<Body>& bodies, const ForceField& forces, const EventTime& now);
-    EventTime drive_end(std::uint32_t i, const ForceField& forces, const EventTime& now) const;
+    EventTime drive_end(std::uint32_t i, double rate, const EventTime& now) const;
     void bring(std::uint32_t i, std::vector<Body>& bodies, const EventTime& now);
     void show(std::uint32_t i, std::vector<Body>& bodies, const EventTime& now) const;
     void box(std::uint32_t i, const std::vector<Body>& bodies, const EventTime& now);
@@ -251,6 +259,7 @@ private:
     EventQueue queue_;
     ImpactSearch search_;
     GroupFlights groups_;
+    DrivenFlights driven_;
     ImpactCluster cluster_{groups_};
     ContactLog* log_ = nullptr;
     ImpactTrace trace_;                    // of the last impact, for the log

@@ -1,6 +1,7 @@
 #include "sim/event_driven/group_flights.h"
 
 #include "sim/contact/model/contact_constraint.h"
+#include "sim/event_driven/driven_flights.h"
 #include "sim/joints/joint_way.h"
 #include "sim/joints/settings.h"
 
@@ -179,19 +180,7 @@ const RigidState& GroupFlights::at(std::uint32_t body, double time) {
 
 Trajectory GroupFlights::path(std::uint32_t body, double from, double to) {
     const RigidState first = at(body, from), last = at(body, to);
-    Body& b = (*bodies_)[body];
-    const RigidState present = state_of(b);
-    set_state(b, last);
-    Motion end;
-    end.position = last.position;
-    end.velocity = b.velocity;
-    end.orientation = last.orientation;
-    end.angular_velocity = b.angular_velocity;
-    set_state(b, first);
-    const Trajectory path =
-        to > from ? Trajectory::between(b, end, to - from) : Trajectory::uniform(b, b.velocity, b.angular_velocity);
-    set_state(b, present);
-    return path;
+    return trajectory_between((*bodies_)[body], first, last, to - from);
 }
 
 void GroupFlights::cancel(std::uint32_t group) {

@@ -33,12 +33,16 @@ Vec3 force_of(const FieldDescription& f, const MassPoint& body) {
     return Vec3::Zero();
 }
 
-// How fast a body circles or passes the center, or loses its speed, 1/s.
-double rate_of(const FieldDescription& f, const MassPoint& body) {
+// How fast a body loses its speed, 1/s.
+double drag_rate_of(const FieldDescription& f, const MassPoint& body) {
+    if (f.type != FieldKind::drag) return 0.0;
+    return (f.linear + 2.0 * f.quadratic * (f.velocity - body.velocity).norm()) / body.mass;
+}
+
+// How fast a body circles or passes the center, 1/s.
+double passing_rate_of(const FieldDescription& f, const MassPoint& body) {
+    if (f.type == FieldKind::drag || f.type == FieldKind::uniform) return 0.0;
     const Vec3 r = body.position - f.center;
-    if (f.type == FieldKind::drag)
-        return (f.linear + 2.0 * f.quadratic * (f.velocity - body.velocity).norm()) / body.mass;
-    if (f.type == FieldKind::uniform) return 0.0;
     const double d = smoothed(f.type == FieldKind::vortex ? Vec3(f.axis.cross(r)) : r, f.softening);
     if (!(d > 0.0)) return 0.0;
     const double power = f.type == FieldKind::point ? d * d * d : d * d;
@@ -75,12 +79,20 @@ Vec3 PositionForces::mean(const MassPoint& body, double from, double to) const {
     return sum;
 }
 
-double PositionForces::rate(const MassPoint& body, double time) const {
-    double fastest = 0.0;
+template <class Rate>
+double PositionForces::fastest(const MassPoint& body, double time, const Rate& rate) const {
+    double most = 0.0;
     for (const FieldDescription& f : fields_)
-        if (time >= f.start && time < f.end && f.region.contains(body.position))
-            fastest = std::max(fastest, rate_of(f, body));
-    return fastest;
+        if (time >= f.start && time < f.end && f.region.contains(body.position)) most = std::max(most, rate(f, body));
+    return most;
+}
+
+double PositionForces::rate(const MassPoint& body, double time) const {
+    return std::max(fastest(body, time, drag_rate_of), passing_rate(body, time));
+}
+
+double PositionForces::passing_rate(const MassPoint& body, double time) const {
+    return fastest(body, time, passing_rate_of);
 }
 
 bool PositionForces::changes(double from, double to) const {

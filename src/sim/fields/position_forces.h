@@ -22,8 +22,9 @@ public:
     /// Sum of the forces at a time, N; and the mean over [from, to) for a body that stays where it is.
     Vec3 at(const MassPoint& body, double time) const;
     Vec3 mean(const MassPoint& body, double from, double to) const;
-    /// Fastest rate at which the force changes the motion, 1/s.
+    /// Fastest rate at which the force changes the motion, 1/s; and at which a body circles or passes a center.
     double rate(const MassPoint& body, double time) const;
+    double passing_rate(const MassPoint& body, double time) const;
     /// True if a field begins or ends within [from, to).
     bool changes(double from, double to) const;
     /// The first time after `time` at which a field begins or ends; infinity when there is none.
@@ -33,6 +34,9 @@ public:
     double potential(const MassPoint& body) const;
 
 private:
+    template <class Rate>
+    double fastest(const MassPoint& body, double time, const Rate& rate) const;
+
     std::vector<FieldDescription> fields_;
 };
 

@@ -25,7 +25,7 @@ std::int64_t EventDrivenStage::run_events(const StepContext& step, std::int64_t 
 
 std::int64_t EventDrivenStage::skip_steps(const StepContext& step, std::int64_t to) {
     // Bodies that can break are examined at each step: rotation and weight load them too.
-    if (events_.stepping(step.set.bodies) || step.forces.field().ever_changes() || !step.fracture.empty())
+    if (events_.stepping(step.set.bodies) || step.forces.field().ever_begins() || !step.fracture.empty())
         return step.index;
     return run_events(step, to);
 }
@@ -41,6 +41,7 @@ std::span<const std::uint32_t> EventDrivenStage::choose_stepped(const StepContex
     events_.record_in(step.log);
     events_.start_from(step.set.old_velocities);
     events_.join(step.joints, bodies, step.forces.field());
+    step.forces.hold_pairs(step);
     events_.take_off(contacts_, gaps_, bodies, step.forces.field(), step.index);
     stepped_.clear();
     for (const std::uint32_t i : step.set.awake)

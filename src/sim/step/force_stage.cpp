@@ -27,7 +27,7 @@ Vec3 place_of_forces(std::uint32_t i, const StepContext& step) {
 ForceStage::ForceStage(const SceneDescription& scene, const BodySet& set)
     : field_(scene, set.scene_index, set.origin),
       effects_(set.bodies.size()),
-      ending_(field_.ever_changes() ? set.bodies.size() : 0) {}
+      ending_(field_.pushed().empty() ? 0 : set.bodies.size()) {}
 
 void ForceStage::begin(const StepContext& step) { field_.light_explosions(step.set.bodies, step.start(), step.end()); }
 
@@ -43,10 +43,12 @@ void ForceStage::wake(const StepContext& step) const {
             step.sleep.wake(i, step.set.bodies);
 }
 
+void ForceStage::hold_pairs(const StepContext& step) { field_.hold_pairs(step.set.bodies, step.start(), step.end()); }
+
 void ForceStage::apply(const StepContext& step, OutOfDate derived) {
     const double now = step.start(), next = step.end(), h = step.h;
     BodySet& set = step.set;
-    field_.hold_pairs(set.bodies, now, next);
+    hold_pairs(step);
     step.pool.for_bodies(set.awake, tuning::parallel_bodies, [&](std::uint32_t i) {
         Body& body = set.bodies[i];
         if (body.flying) return;

@@ -31,6 +31,8 @@ public:
     /// Wakes bodies on which a force begins or ends in the step.
     void wake(const StepContext& step) const;
 
+    /// Before apply(), where the forces between bodies decide that a contact holds a body.
+    void hold_pairs(const StepContext& step);
     /// Before apply(), in water: bodies near others and bodies in joints do not move freely.
     void list_held(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies);
     /// The forces that apply() gives to the body.

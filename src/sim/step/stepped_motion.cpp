@@ -93,25 +93,23 @@ void SteppedMotion::advance(const StepContext& step, ContactDetection& detection
 void SteppedMotion::fly_pairs(const std::vector<CcdFraction>& limits, const StepContext& step) {
     const PairForces& pairs = step.forces.field().pairs();
     const auto index = pairs.bodies();
-    members_.assign(index.size(), {});
-    flights_.resize(1);
-    bool any = false;
+    std::vector<PairFlight::Member> members(index.size());
+    std::vector<std::size_t> flying;
     for (std::size_t k = 0; k < index.size(); ++k) {
         const Body& body = step.set.bodies[index[k]];
-        members_[k].flies = body.dynamic() && !body.asleep && !body.jointed && advances_whole_state(body.integrator) &&
-                            !step.forces.touched(index[k], body);
-        if (!members_[k].flies) continue;
-        members_[k].start = step.forces.start_of(index[k], body);
-        any = true;
+        members[k] = {body.dynamic() && !body.asleep && !body.jointed && advances_whole_state(body.integrator) &&
+                          !step.forces.touched(index[k], body),
+                      body.integrator,
+                      step.forces.start_of(index[k], body),
+                      {body.velocity, body.angular_velocity}};
+        if (members[k].flies) flying.push_back(k);
     }
-    if (!any) return;
-    flights_[0].advance(step.set.bodies, members_, step.forces.field(), step.start(), step.end());
-    for (std::size_t k = 0; k < index.size(); ++k) {
+    if (flying.empty()) return;
+    ends_.resize(index.size());
+    pair_flight_.start(step.set.bodies, std::move(members), step.forces.field(), step.start());
+    for (const std::size_t k : flying) {
         const double share = limits[index[k]].share;
-        if (!members_[k].flies || share == 1.0) continue;
-        PairFlight shorter;
-        shorter.advance(step.set.bodies, members_, step.forces.field(), step.start(), step.start() + share * step.h);
-        flights_[0].stop(k, shorter.end(k));
+        ends_[k] = pair_flight_.at(share == 1.0 ? step.end() : step.start() + share * step.h)[k];
     }
 }
 
@@ -132,7 +130,7 @@ void SteppedMotion::move(std::uint32_t i, const CcdFraction& limit, const StepCo
         const PairForces& pairs = forces.field().pairs();
         if (const auto found = std::ranges::lower_bound(pairs.bodies(), i);
             found != pairs.bodies().end() && *found == i)
-            set_state(body, flights_[0].end(std::size_t(found - pairs.bodies().begin())));
+            set_state(body, ends_[std::size_t(found - pairs.bodies().begin())]);
         else if (body.integrator == IntegratorKind::exact)
             free_flights_.advance(i, body, forces.field(), step.index, share);
         else

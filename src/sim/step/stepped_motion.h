@@ -32,9 +32,9 @@ public:
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [motions, free_flights, members, flights] = self;
+        auto& [motions, free_flights, pair_flight, ends] = self;
         archive.keep(motions, free_flights);
-        archive.scratch(members, flights);
+        archive.scratch(pair_flight, ends);
     }
 
 private:
@@ -43,9 +43,9 @@ private:
     void move(std::uint32_t i, const CcdFraction& limit, const StepContext& step);
 
     ClampedMotions motions_;
-    FreeFlights free_flights_;  // of bodies with integrator = "exact"
-    std::vector<PairFlight::Member> members_;
-    std::vector<PairFlight> flights_;  // of bodies with forces between each other: to the ends of their motions
+    FreeFlights free_flights_;      // of bodies with integrator = "exact"
+    PairFlight pair_flight_;        // of bodies with forces between each other,
+    std::vector<RigidState> ends_;  // to the ends of their motions
 };
 
 }  // namespace tumble

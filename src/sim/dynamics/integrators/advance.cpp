@@ -125,8 +125,9 @@ void advance_one_step(Body& body, IntegratorKind kind, const ForceField& forces,
     set_state(body, state);
 }
 
-RigidState advance_exactly(const Body& body, const ForceField& forces, std::size_t index, double from, double to) {
-    RigidState state = state_of(body);
+RigidState advance_exactly(const Body& body, const RigidState& start_state, const ForceField& forces, std::size_t index,
+                           double from, double to) {
+    RigidState state = start_state;
     const RigidMass mass = mass_of(body);
     const Drag drag{forces.drag_rate(body), forces.wind()};
     for_each_span(body, forces, index, from, to, [&](double start, double end, const auto& law) {

@@ -18,12 +18,17 @@ inline bool advances_whole_state(IntegratorKind kind) {
 void advance_one_step(Body& body, IntegratorKind kind, const ForceField& forces, std::size_t index, double from,
                       double to);
 
-/// The body's state at `to`, from its present one at `from`, as accurate as double precision allows (about 1e-12 over
-/// some seconds):
+/// The state of the body at `to`, from that at `from` (by default its present one), as accurate as double precision
+/// allows (about 1e-12 over some seconds):
 /// - free flight in closed form;
 /// - under drag alone the rotation in closed form and the center by extrapolation;
 /// - under forces at points everything by extrapolation, in as many steps as the rates require.
 /// Throws RunError for too many steps.
-RigidState advance_exactly(const Body& body, const ForceField& forces, std::size_t index, double from, double to);
+RigidState advance_exactly(const Body& body, const RigidState& start, const ForceField& forces, std::size_t index,
+                           double from, double to);
+inline RigidState advance_exactly(const Body& body, const ForceField& forces, std::size_t index, double from,
+                                  double to) {
+    return advance_exactly(body, state_of(body), forces, index, from, to);
+}
 
 }  // namespace tumble

@@ -29,11 +29,13 @@ void PairFlight::place_others(double time) {
     for (std::size_t k = 0; k < members_.size(); ++k) {
         if (members_[k].flies) continue;
         const Body& body = (*bodies_)[index[k]];
-        points_[k] = {body.dynamic() ? body.mass : infinity, body.position + (time - start_) * body.velocity,
-                      body.velocity};
+        const Member& m = members_[k];
+        points_[k] = {body.dynamic() ? body.mass : infinity, m.start.position + (time - start_) * m.velocity.velocity,
+                      m.velocity.velocity};
         if (!turns_of_.empty())
             turns_of_[k].rotation =
-                from_rotation_vector((time - start_) * body.angular_velocity).toRotationMatrix() * body.rotation;
+                from_rotation_vector((time - start_) * m.velocity.angular_velocity).toRotationMatrix() *
+                rotation_of(m.start.orientation);
     }
 }
 
@@ -160,32 +162,46 @@ void PairFlight::exact(const Span& span) {
     }
 }
 
-void PairFlight::advance(const std::vector<Body>& bodies, std::span<const Member> members, const ForceField& forces,
-                         double from, double to) {
+void PairFlight::start(const std::vector<Body>& bodies, std::vector<Member> members, const ForceField& forces,
+                       double from) {
     bodies_ = &bodies;
     forces_ = &forces;
-    members_ = members;
+    members_ = std::move(members);
     start_ = from;
-    states_.resize(members.size());
-    masses_.resize(members.size());
-    points_.assign(members.size(), {});
-    turns_of_.assign(forces.pairs().has_torques() ? members.size() : 0, {});
-    pulls_.assign(members.size(), {});
+    reached_.clear();
+    states_.resize(members_.size());
+    masses_.resize(members_.size());
+    points_.assign(members_.size(), {});
+    turns_of_.assign(forces.pairs().has_torques() ? members_.size() : 0, {});
+    pulls_.assign(members_.size(), {});
     flying_.clear();
-    bool exactly = false, by_parts = true;
+    exactly_ = false;
+    by_parts_ = true;
     const auto index = forces.pairs().bodies();
-    for (std::size_t k = 0; k < members.size(); ++k) {
-        if (!members[k].flies) continue;
+    for (std::size_t k = 0; k < members_.size(); ++k) {
+        if (!members_[k].flies) continue;
         const Body& body = bodies[index[k]];
         flying_.push_back(k);
-        states_[k] = members[k].start;
         masses_[k] = mass_of(body);
         points_[k].mass = body.mass;
         if (!turns_of_.empty()) turns_of_[k].inverse_inertia = 1.0 / body.principal_inertia.minCoeff();
-        exactly = exactly || body.integrator == IntegratorKind::exact;
-        by_parts = by_parts && body.integrator == IntegratorKind::splitting;
+        exactly_ = exactly_ || members_[k].integrator == IntegratorKind::exact;
+        by_parts_ = by_parts_ && members_[k].integrator == IntegratorKind::splitting;
     }
-    for (double now = from; now < to;) {
+}
+
+const std::vector<RigidState>& PairFlight::at(double time) {
+    for (const auto& [when, states] : reached_)
+        if (when == time) return states;
+    for (const std::size_t k : flying_) states_[k] = members_[k].start;
+    advance(time);
+    return reached_.emplace_back(time, states_).second;
+}
+
+void PairFlight::advance(double to) {
+    const ForceField& forces = *forces_;
+    const auto index = forces.pairs().bodies();
+    for (double now = start_; now < to;) {
         double end = to;
         turns_ = false;
         for (const std::size_t k : flying_) end = std::min(end, forces.next_change(index[k], now));
@@ -194,7 +210,7 @@ void PairFlight::advance(const std::vector<Body>& bodies, std::span<const Member
         for (const std::size_t k : flying_) states_[k].elapsed = 0.0;
         for (const std::size_t k : flying_) turns_ = turns_ || !forces.torque_free(index[k], middle_);
         const Span span{now, end, middle_};
-        if (exactly) {
+        if (exactly_) {
             // Without torques the rotations are in closed form.
             const std::vector<RigidState> before = states_;
             if (!turns_)
@@ -207,7 +223,7 @@ void PairFlight::advance(const std::vector<Body>& bodies, std::span<const Member
                                                       before[k].orientation, before[k].angular_momentum)
                                              .at(end - now);
             }
-        } else if (by_parts) {
+        } else if (by_parts_) {
             split(span);
         } else {
             step(span, false);

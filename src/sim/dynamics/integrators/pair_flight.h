@@ -6,32 +6,31 @@
 #include "sim/dynamics/integrators/rigid_state.h"
 
 #include <cstdint>
-#include <span>
+#include <utility>
 #include <vector>
 
 namespace tumble {
 
 class PairFlight {
 public:
-    /// Bodies of the forces, in the order of PairForces::bodies(): in flight, from this state; or moved by others.
+    /// Bodies of the forces, in the order of PairForces::bodies(): in flight, or moved by others.
     struct Member {
         bool flies = false;
-        RigidState start;
+        IntegratorKind integrator = IntegratorKind::exact;
+        RigidState start;       // of one that is moved by others, its pose
+        BodyVelocity velocity;  // constant, of one that is moved by others
     };
 
-    /// Finds the states at `to` (s) from those at `from`. The bodies that do not fly move at their present velocities.
-    /// Throws RunError for too many steps.
-    void advance(const std::vector<Body>& bodies, std::span<const Member> members, const ForceField& forces,
-                 double from, double to);
-    /// The state of a member that flies.
-    const RigidState& end(std::size_t member) const { return states_[member]; }
-    /// A member ends elsewhere.
-    void stop(std::size_t member, const RigidState& end) { states_[member] = end; }
+    /// All members start at `from` (s). The bodies and forces must outlive the flight.
+    void start(const std::vector<Body>& bodies, std::vector<Member> members, const ForceField& forces, double from);
+    /// The states of the members that fly, at a time from the start on. Throws RunError for too many steps.
+    const std::vector<RigidState>& at(double time);
 
 private:
     struct Span {
         double from, to, middle;  // s
     };
+    void advance(double to);
     void place_others(double time);
     void gather();
     PairBodies present() const { return {points_, turns_of_}; }
@@ -44,15 +43,16 @@ private:
 
     const std::vector<Body>* bodies_ = nullptr;
     const ForceField* forces_ = nullptr;
-    std::span<const Member> members_;
-    double start_ = 0.0, middle_ = 0.0, span_start_ = 0.0;  // s
+    std::vector<Member> members_;
+    std::vector<std::pair<double, std::vector<RigidState>>> reached_;  // by time
+    double start_ = 0.0, middle_ = 0.0, span_start_ = 0.0;             // s
     std::vector<RigidState> states_;
     std::vector<RigidMass> masses_;
     std::vector<MassPoint> points_;
     std::vector<PairTurn> turns_of_;  // where dipoles act
     std::vector<Wrench> pulls_;
     std::vector<std::size_t> flying_;
-    bool turns_ = false;
+    bool turns_ = false, exactly_ = false, by_parts_ = true;
 };
 
 }  // namespace tumble
