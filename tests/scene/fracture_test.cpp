@@ -39,7 +39,7 @@ const TriangleMesh& mesh_of(const BodyDescription& piece) { return std::get<Mesh
 
 double volume(const BodyDescription& piece) { return mesh_mass(mesh_of(piece), 1.0).mass; }
 
-const FractureDescription& fracture(const SceneDescription& scene) { return *scene.bodies.front().fracture; }
+FractureDescription fracture(const SceneDescription& scene) { return *scene.bodies.front().fracture; }
 
 const std::vector<std::string> shapes = {
     box,

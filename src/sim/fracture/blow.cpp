@@ -190,7 +190,7 @@ std::vector<Blow::Failing> Blow::failing(const std::vector<Contact>& contacts, c
             add_manifold(a, false, from, to);
             add_manifold(b, true, from, to);
         }
-        const auto wrenches = t.graph.solve(loads, Vec3::Zero());
+        const auto wrenches = t.graph.solve(loads);
         std::vector<double> utilization(t.graph.bond_count(), 0.0);
         for (std::uint32_t k = 0; k < t.graph.bond_count(); ++k)
             if (t.graph.intact(k) && t.before.may_break(t.before.piece_of(t.graph.bond(k).a)))

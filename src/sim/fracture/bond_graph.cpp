@@ -116,7 +116,7 @@ void BondGraph::factor() {
     factored_ = true;
 }
 
-std::vector<Wrench> BondGraph::balanced(std::span<const Wrench> applied, const Vec3& angular_velocity) const {
+std::vector<Wrench> BondGraph::balanced(std::span<const Wrench> applied) const {
     struct Motion {
         std::vector<MassProperties> parts;
         MassProperties whole;
@@ -134,19 +134,18 @@ std::vector<Wrench> BondGraph::balanced(std::span<const Wrench> applied, const V
         motion.load.torque +=
             applied[i].torque + (cells_[i].center_of_mass - motion.whole.center_of_mass).cross(applied[i].force);
     }
-    const Vec3& w = angular_velocity;
     for (Motion& motion : motions) {
         if (motion.parts.empty()) continue;
         motion.acceleration = motion.load.force / motion.whole.mass;
-        motion.turn = motion.whole.inertia.inverse() * (motion.load.torque - w.cross(motion.whole.inertia * w));
+        motion.turn = motion.whole.inertia.inverse() * motion.load.torque;
     }
     std::vector<Wrench> loads(applied.begin(), applied.end());
     for (std::size_t i = 0; i < cells_.size(); ++i) {
         const Motion& motion = motion_of(i);
         if (motion.parts.empty()) continue;
         const Vec3 r = cells_[i].center_of_mass - motion.whole.center_of_mass;
-        loads[i].force -= cells_[i].mass * (motion.acceleration + motion.turn.cross(r) + w.cross(w.cross(r)));
-        loads[i].torque -= cells_[i].inertia * motion.turn + w.cross(cells_[i].inertia * w);
+        loads[i].force -= cells_[i].mass * (motion.acceleration + motion.turn.cross(r));
+        loads[i].torque -= cells_[i].inertia * motion.turn;
     }
     return loads;
 }
@@ -188,12 +187,12 @@ std::vector<Wrench> BondGraph::with_bonds(std::vector<Wrench> loads) const {
 }
 
 // Displacements of long chains lose digits: their forces are corrected by the rest of the loads.
-std::span<const Wrench> BondGraph::solve(std::span<const Wrench> applied, const Vec3& angular_velocity) {
+std::span<const Wrench> BondGraph::solve(std::span<const Wrench> applied) {
     constexpr int most_rounds = 8;
     constexpr double rounding = 1e-13;  // of the largest load
     TUMBLE_CHECK_EQ(applied.size(), cells_.size());
     if (!factored_) factor();
-    const std::vector<Wrench> loads = balanced(applied, angular_velocity);
+    const std::vector<Wrench> loads = balanced(applied);
     std::fill(wrenches_.begin(), wrenches_.end(), Wrench{});
     const double enough = rounding * largest_load(loads, lever_);
     for (int round = 0; round < most_rounds; ++round) {

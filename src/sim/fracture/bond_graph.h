@@ -22,6 +22,13 @@ struct BondStress {
     double bending = 0.0, shear = 0.0, torsion = 0.0;
 };
 
+/// Load of a cell by the rotation of its body about a point, on its center of mass (d'Alembert): -m w x (w x r) and
+/// -w x I w.
+inline Wrench rotation_load(const MassProperties& cell, const Vec3& angular_velocity, const Vec3& about) {
+    const Vec3& w = angular_velocity;
+    return {-cell.mass * w.cross(w.cross(cell.center_of_mass - about)), -w.cross(cell.inertia * w)};
+}
+
 class BondGraph {
 public:
     /// `cells`: by volume and density, about their centers of mass. `fracture` must outlive the graph.
@@ -40,8 +47,8 @@ public:
 
     /// Wrenches on cell `a` of each bond, about the bond's center; zero for a cut one. `applied`: on the cells, about
     /// their centers of mass. A component that nothing holds takes the part of them that accelerates it as a rigid body
-    /// with this angular velocity (d'Alembert).
-    std::span<const Wrench> solve(std::span<const Wrench> applied, const Vec3& angular_velocity);
+    /// (d'Alembert).
+    std::span<const Wrench> solve(std::span<const Wrench> applied);
 
     BondStress stress(std::size_t bond, const Wrench& wrench) const;
     /// The load over the strength, the largest of tension with bending, of shear with torsion, and of compression with
@@ -64,7 +71,7 @@ private:
     void factor();
     void add_block(const Block& block, BlockCholesky::Block& to, bool transposed) const;
     Block on_cell(std::size_t bond, std::uint32_t cell) const;
-    std::vector<Wrench> balanced(std::span<const Wrench> applied, const Vec3& angular_velocity) const;
+    std::vector<Wrench> balanced(std::span<const Wrench> applied) const;
     std::vector<Wrench> with_bonds(std::vector<Wrench> loads) const;
     void add_displacement();
 

@@ -328,10 +328,9 @@ std::vector<Wrench> FractureStage::loads_of_cells(std::uint32_t entry, std::span
         const MassProperties& own = body.mass_of(cell);
         loads[cell].force += own.mass * (to_body * piece.fall(step.settings.gravity));
         if (!piece.dynamic()) continue;
-        // d'Alembert: m w x (w x r) and w x I w.
-        const Vec3 w = to_body * piece.angular_velocity;
-        loads[cell].force -= own.mass * w.cross(w.cross(own.center_of_mass - piece.center_of_mass));
-        loads[cell].torque -= w.cross(own.inertia * w);
+        const Wrench turns = rotation_load(own, to_body * piece.angular_velocity, piece.center_of_mass);
+        loads[cell].force += turns.force;
+        loads[cell].torque += turns.torque;
     }
     return loads;
 }
@@ -343,7 +342,7 @@ std::optional<BondGraph> FractureStage::cut(std::uint32_t entry, std::span<const
     for (bool more = true; more;) {
         BondGraph& graph = left ? *left : body.graph();
         std::vector<double> utilization(graph.bond_count(), 0.0);
-        const auto wrenches = graph.solve(loads, Vec3::Zero());
+        const auto wrenches = graph.solve(loads);
         for (std::uint32_t k = 0; k < graph.bond_count(); ++k)
             if (graph.intact(k) && body.may_break(body.piece_of(graph.bond(k).a)))
                 utilization[k] = graph.utilization(k, wrenches[k]);
