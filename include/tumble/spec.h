@@ -319,6 +319,7 @@ struct Fracture {
     FracturePattern pattern = FracturePattern::voronoi;
     std::uint64_t seed = 1;
     std::optional<Vec3> focus = {};       // m, body frame: radial and voronoi
+    bool focus_at_impact = false;         // in place of a focus: where the first blow breaks the body
     std::optional<Vec3> axis = {};        // slabs
     std::optional<int> depth = {};        // times that a piece may break again; not given: down to single cells
     std::optional<double> smallest = {};  // m: cells of less than its cube are merged

@@ -5,7 +5,8 @@
 #include "api/guard.h"
 #include "api/scene_data.h"
 #include "api/spec_text.h"
-#include "framing/motion_camera.h"
+#include "presimulation/impact_focus.h"
+#include "presimulation/motion_camera.h"
 #include "scene/toml/limits.h"
 
 #include <fmt/format.h>
@@ -88,8 +89,8 @@ std::shared_ptr<const SceneData> check(const SceneSpec& spec) {
     try {
         const SpecText made = spec_text(spec);
         const auto mesh = [&](std::size_t index) { return mesh_of(made.meshes.at(index).get()); };
-        auto description =
-            std::make_shared<const SceneDescription>(parse_scene(made.text, file, {}, &files, imports_of(spec), mesh));
+        auto description = std::make_shared<const SceneDescription>(
+            focused_on_impacts(parse_scene(made.text, file, {}, &files, imports_of(spec), mesh)));
         files.erase(files.begin());
         return make_data(std::move(description), std::move(files));
     } catch (const InputError& error) {
@@ -133,7 +134,7 @@ Scene load_scene(const std::string& file, const LoadOptions& options) {
         FileList files;
         try {
             auto description = std::make_shared<const SceneDescription>(
-                tumble::load_scene(file, to_overrides(options), &files, imports_of(options)));
+                focused_on_impacts(tumble::load_scene(file, to_overrides(options), &files, imports_of(options))));
             return make_scene(std::move(description), std::move(files));
         } catch (const InputError& error) {
             if (error.where().file.empty()) throw option_error(options, error.message());

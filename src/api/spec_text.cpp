@@ -216,6 +216,7 @@ private:
         if (b.fracture) {
             header("[body.fracture]", prefix + ".fracture");
             write_fields<FractureRequest>(*this, *b.fracture, true);
+            if (b.fracture->focus_at_impact) value("focus", "focus_at_impact", "\"impact\"");
         }
         if (b.grid) write(*b.grid, prefix + ".grid");
         if (b.scatter) write(*b.scatter, prefix + ".scatter");

@@ -1,5 +1,6 @@
 #include "live/live_run.h"
 
+#include "presimulation/impact_focus.h"
 #include "scene/load.h"
 
 #include <fmt/format.h>
@@ -14,7 +15,7 @@ namespace {
 SceneDescription scene_of(const std::string& name, const std::string& text, const std::vector<std::string>& settings) {
     SceneOverrides overrides;
     overrides.set = settings;
-    return parse_scene(text, name, overrides, nullptr, MeshImports::refused);
+    return focused_on_impacts(parse_scene(text, name, overrides, nullptr, MeshImports::refused));
 }
 
 /// As record_page() names them.

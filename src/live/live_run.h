@@ -10,9 +10,9 @@
 // compression.
 #pragma once
 
-#include "framing/motion_camera.h"
 #include "page/clip_data.h"
 #include "page/page_recorder.h"
+#include "presimulation/motion_camera.h"
 #include "scene/description/description.h"
 #include "sim/frames/frame_sequence.h"
 #include "sim/world.h"

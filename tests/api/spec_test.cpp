@@ -141,6 +141,19 @@ SceneSpec everything_directed() {
     return spec;
 }
 
+TEST(Spec, FocusOfAFractureIsAPointOrTheImpact) {
+    SceneSpec spec = everything_directed();
+    Fracture& fracture = *spec.bodies[1].fracture;
+    fracture.pattern = FracturePattern::radial;
+    fracture.axis.reset();
+    fracture.focus = Vec3{0.1, 0.0, 0.0};
+    EXPECT_NE(to_toml(spec).find("focus = [0.1"), std::string::npos) << to_toml(spec);
+    fracture.focus.reset();
+    fracture.focus_at_impact = true;
+    EXPECT_NE(to_toml(spec).find("focus = \"impact\""), std::string::npos);
+    EXPECT_NO_THROW(Scene{spec});
+}
+
 TEST(Spec, HasLightsDirectionAndForcesOfTheFile) {
     const SceneSpec spec = everything_directed();
     const TestFolder folder;

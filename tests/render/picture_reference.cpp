@@ -3,8 +3,8 @@
 // TIME: s, of the frame; SIZE: of its height, in parts of the scene's own; FOLDER: for the pictures, or - for none.
 #include "accumulated.h"
 
-#include "framing/motion_camera.h"
 #include "output/png_writer.h"
+#include "presimulation/motion_camera.h"
 #include "render/renderer.h"
 #include "scene/load.h"
 #include "sim/world.h"

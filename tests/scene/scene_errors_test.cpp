@@ -475,6 +475,8 @@ TEST(SceneErrors, OfFracture) {
         {in_body("pattern = @\"slab\""), "did you mean"},
         {in_body("axis = @[1, 0, 0]"), "is for pattern = \"slabs\""},
         {in_body("cells = 8" + slabs + ", focus = @[1, 0, 0]"), "\"radial\" or \"voronoi\""},
+        {in_body("cells = 8, focus = @\"ball\""), "must be a point or \"impact\" (given \"ball\")"},
+        {in_body("cells = 8, focus = @2"), "focus must be an array of 3 numbers"},
         {in_body("held = @[\"-y\"]"), "nothing holds a dynamic one"},
         {body("type = \"fixed\"\n" + hard + "fracture = { held = [@\"y\"] }"), "must be one of"},
         {body("type = \"fixed\"\n" + hard + "fracture = { held = @[] }"), "at least one side"},

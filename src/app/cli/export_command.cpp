@@ -8,9 +8,10 @@
 #include "app/survey/survey.h"
 #include "core/error.h"
 #include "core/safe_text.h"
-#include "framing/motion_camera.h"
 #include "gltf/scene_export.h"
 #include "output/temporary_file.h"
+#include "presimulation/impact_focus.h"
+#include "presimulation/motion_camera.h"
 #include "render/camera/camera_animation.h"
 #include "scene/load.h"
 #include "sim/frames/clip_timing.h"
@@ -95,7 +96,7 @@ void run_export(const ExportCommand& command) {
     if (command.output.extension() != ".glb")
         throw InputError(fmt::format("-o {}: the name must end with .glb", safe_path(command.output)));
     FileList inputs;
-    const SceneDescription scene = load_scene(command.scene, command.overrides, &inputs);
+    const SceneDescription scene = focused_on_impacts(load_scene(command.scene, command.overrides, &inputs));
     OutputPlan plan;
     plan.add_inputs(inputs);
     plan.add("-o", command.output);

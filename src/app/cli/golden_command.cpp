@@ -27,6 +27,7 @@
 #include "output/output_path.h"
 #include "output/temporary_file.h"
 #include "output/temporary_folder.h"
+#include "presimulation/impact_focus.h"
 #include "scene/hash/scene_hash.h"
 #include "scene/toml/error_text.h"
 #include "scene/toml/limits.h"
@@ -273,7 +274,8 @@ std::string SceneDrawer::identity(const GoldenCase& golden) const {
         const PlotCommand command = plot_command(golden);
         text = fmt::format("{} {} {}\n", command.quantities, command.width, command.height);
         for (const Variant& variant : make_variants(command.scenes, command.overrides, command.vary))
-            text += fmt::format("{} {}\n", scene_hash(load_scene(variant.scene, variant.overrides)), variant.label);
+            text += fmt::format("{} {}\n", scene_hash(focused_on_impacts(load_scene(variant.scene, variant.overrides))),
+                                variant.label);
         return text;
     }
     const RenderCommand command = render_command(golden);

@@ -10,6 +10,7 @@
 #include "core/frame_rate.h"
 #include "core/safe_text.h"
 #include "output/table_writer.h"
+#include "presimulation/impact_focus.h"
 #include "scene/fields/choices.h"
 #include "sim/geometry/shapes/shape.h"
 #include "sim/world.h"
@@ -341,7 +342,7 @@ void write_bodies(const std::filesystem::path& file, const SceneDescription& sce
 
 void run_info(const InfoCommand& command) {
     FileList inputs;
-    const SceneDescription scene = load_scene(command.scene, command.overrides, &inputs);
+    const SceneDescription scene = focused_on_impacts(load_scene(command.scene, command.overrides, &inputs));
     OutputPlan plan;
     plan.add_inputs(inputs);
     if (command.bodies) plan.add("--bodies", *command.bodies);

@@ -13,6 +13,7 @@
 #include "core/safe_text.h"
 #include "output/process.h"
 #include "output/temporary_folder.h"
+#include "presimulation/impact_focus.h"
 #include "quantities/quantities.h"
 
 #include <fmt/format.h>
@@ -127,7 +128,7 @@ PageScenes load_page_scenes(std::span<const fs::path> files, const SceneOverride
         throw InputError(fmt::format("--label: {}", error.message()));
     }
     for (const Variant& variant : page.variants) {
-        page.scenes.push_back(load_scene(variant.scene, variant.overrides, &page.inputs));
+        page.scenes.push_back(focused_on_impacts(load_scene(variant.scene, variant.overrides, &page.inputs)));
         check_plot(page.scenes.back(), overrides);
     }
     for (const fs::path& file : files)

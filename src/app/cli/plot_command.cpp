@@ -15,6 +15,7 @@
 #include "core/safe_text.h"
 #include "output/temporary_file.h"
 #include "plot/figure.h"
+#include "presimulation/impact_focus.h"
 #include "quantities/quantities.h"
 #include "scene/load.h"
 #include "scene/toml/limits.h"
@@ -55,7 +56,7 @@ void run_plot(const PlotCommand& command) {
     std::vector<PlottedRun> runs;
     for (const Variant& variant : variants) {
         FileList inputs;
-        scenes.push_back(load_scene(variant.scene, variant.overrides, &inputs));
+        scenes.push_back(focused_on_impacts(load_scene(variant.scene, variant.overrides, &inputs)));
         plan.add_inputs(inputs);
         runs.emplace_back(variant.label, parse_quantities(command.quantities, scenes.back()));
     }

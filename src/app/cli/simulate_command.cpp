@@ -16,6 +16,7 @@
 #include "core/error.h"
 #include "core/safe_text.h"
 #include "output/temporary_file.h"
+#include "presimulation/impact_focus.h"
 #include "render/scene/pose_filter.h"
 #include "scene/toml/limits.h"
 #include "sim/checkpoint/archive.h"
@@ -199,8 +200,8 @@ void check_tables(const SimulateCommand& command, const FileList& inputs) {
 void simulate_tables(const SimulateCommand& command) {
     const double start = wall_seconds();
     FileList inputs;
-    const auto shared =
-        std::make_shared<const SceneDescription>(load_scene(command.scenes.front(), command.overrides, &inputs));
+    const auto shared = std::make_shared<const SceneDescription>(
+        focused_on_impacts(load_scene(command.scenes.front(), command.overrides, &inputs)));
     const SceneDescription& description = *shared;
     check_tables(command, inputs);
     const v0::Scene scene = v0::make_scene(shared, std::move(inputs));

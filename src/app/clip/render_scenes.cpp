@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/frame_rate.h"
 #include "core/safe_text.h"
+#include "presimulation/impact_focus.h"
 #include "scene/hash/scene_hash.h"
 #include "sim/checkpoint/archive.h"
 #include "sim/frames/clip_speed.h"
@@ -85,8 +86,9 @@ void RenderScenes::load(const ClipRequest& command) {
     std::vector<Variant> variants = make_variants(command.scenes, command.overrides, command.vary);
     label_variants(variants, command.labels);
     for (const Variant& variant : variants) {
-        SceneDescription loaded = command.text ? parse_scene(*command.text, variant.scene, variant.overrides, &inputs)
-                                               : load_scene(variant.scene, variant.overrides, &inputs);
+        SceneDescription loaded =
+            focused_on_impacts(command.text ? parse_scene(*command.text, variant.scene, variant.overrides, &inputs)
+                                            : load_scene(variant.scene, variant.overrides, &inputs));
         loaded.output.fps /= command.frame_step;
         loaded.simulation.steps_per_frame *= command.frame_step;
         auto scene = std::make_shared<const SceneDescription>(std::move(loaded));

@@ -3,6 +3,7 @@
 #include "app/plots/variants.h"
 #include "core/input_file.h"
 #include "core/safe_text.h"
+#include "presimulation/impact_focus.h"
 #include "quantities/quantities.h"
 
 #include <fmt/format.h>
@@ -52,8 +53,8 @@ SceneDescription load_lesson_scene(const LessonScene& scene, const SceneOverride
         throw InputError(places.of("scene"), fmt::format("scene: there is no file {}", safe_path(scene.file)));
     const std::string key = scene.set.empty() && places.keys.count("vary") > 0 ? "vary" : "set";
     with_place(places.of(key), key, [&] {
-        loaded = scene.text ? parse_scene(*scene.text, scene.file, overrides, &read)
-                            : load_scene(scene.file, overrides, &read);
+        loaded = focused_on_impacts(scene.text ? parse_scene(*scene.text, scene.file, overrides, &read)
+                                               : load_scene(scene.file, overrides, &read));
     });
     return loaded;
 }

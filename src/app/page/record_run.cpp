@@ -1,8 +1,8 @@
 #include "app/page/record_run.h"
 
 #include "core/error.h"
-#include "framing/motion_camera.h"
 #include "page/page_recorder.h"
+#include "presimulation/motion_camera.h"
 #include "sim/world.h"
 
 #include <vector>

@@ -133,14 +133,14 @@ struct CameraDescription {
     std::vector<CameraShot> shots;             // in which other cameras take its place, by their start
     std::vector<CameraInset> insets;           // pictures of other cameras over its own
 
-    /// True if the simulated motion decides its place (framing/motion_camera.h). Until then it shows the start.
+    /// True if the simulated motion decides its place (presimulation/motion_camera.h). Until then it shows the start.
     bool fits_motion() const {
         return fit == CameraFit::motion && !(own_eye && own_target) && keyframes.empty() && !follow;
     }
     /// The same of this camera, or of one of its shots and insets.
     bool any_fits_motion() const;
-    /// True if it comes up with a body in time. Its path follows from the motion (framing/follow_path.h); until it is
-    /// known, the camera moves as the body does.
+    /// True if it comes up with a body in time. Its path follows from the motion (presimulation/follow_path.h); until
+    /// it is known, the camera moves as the body does.
     bool lags() const { return follow && follow_time.value_or(0.0) > 0.0; }
     /// The same of this camera, or of one of its shots and insets.
     bool any_lags() const;

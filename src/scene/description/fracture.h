@@ -22,7 +22,9 @@ struct FractureRequest {
     int cells = 20;  // about; exact for voronoi and slabs without a `smallest`
     FracturePattern pattern = FracturePattern::voronoi;
     std::uint64_t seed = 1;
-    std::optional<Vec3> focus;       // m, body frame: cells are smaller near it; empty: the center of the bounds
+    std::optional<Vec3> focus;  // m, body frame: cells are smaller near it; empty: the center of the bounds
+    /// The focus is the place of the blow that breaks the body; empty until it is known (presimulation/impact_focus.h).
+    bool focus_at_impact = false;
     std::optional<Vec3> axis;        // unit, of slabs; empty: the longest one of the bounds
     std::optional<int> depth;        // how many times pieces may break again; empty: until single cells are left
     std::optional<double> smallest;  // m: cells of less than its cube are merged into neighbors

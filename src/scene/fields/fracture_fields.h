@@ -20,9 +20,11 @@ void visit_fields(Of<FractureRequest>, Visitor& field, Self& self) {
         self.seed, "seed", Whole{0, std::numeric_limits<std::int64_t>::max()},
         {"of random places, with the seed of the scene; copy number i of a grid, a scatter, poses or an instance adds "
          "i"});
-    field(self.focus, "focus", limits::coordinate,
-          {"radial: where the spokes meet; voronoi: cells are smaller near it. In the body's frame",
-           "the center of the bounds; voronoi none"});
+    field(self.focus, "focus", ByCode(),
+          {"radial: where the spokes meet; voronoi: cells are smaller near it. In the body's frame; `\"impact\"`: the "
+           "place of the first blow that breaks the body",
+           "the center of the bounds; voronoi none", "±1e9; `\"impact\"`", "vector, m; or string"});
+    field.since(self.focus_at_impact, self.focus_at_impact);
     field(self.axis, "axis", Direction(), {"slabs: their normal", "the longest one of the bounds"});
     field(self.depth, "depth", Whole{0, 1000},
           {"number of times that a piece may break again", "none: down to single cells"});

@@ -36,6 +36,18 @@ void read_held(const TomlTable& table, BodyType type, std::array<bool, 6>& held)
     if (held == std::array<bool, 6>{}) given->fail("must name at least one side");
 }
 
+void read_focus(const TomlTable& table, FractureRequest& fracture) {
+    const auto given = table.find("focus");
+    if (!given) return;
+    if (!given->is_text()) {
+        fracture.focus = given->vector(limits::coordinate);
+        return;
+    }
+    if (given->text() != "impact")
+        given->fail(fmt::format("must be a point or \"impact\" (given \"{}\")", safe_text(given->text())));
+    fracture.focus_at_impact = true;
+}
+
 /// Keys that another pattern or another type of body has.
 void check_pattern(const TomlTable& table, FracturePattern pattern) {
     if (const auto axis = table.find("axis"); axis && pattern != FracturePattern::slabs)
@@ -70,6 +82,7 @@ void read_fracture(const TomlTable& table, const FractureMaterial& material, Bod
     keys.set_title("fracture");
     FractureDescription fracture;
     static_cast<FractureRequest&>(fracture) = read_all_fields<FractureRequest>(keys);
+    read_focus(keys, fracture);
     read_held(keys, body.type, fracture.held);
     check_pattern(keys, fracture.pattern);
     if (!material.strength)
@@ -135,6 +148,11 @@ void append_pieces(SceneDescription& scene) {
         scene.bodies[i].fracture = std::move(fracture);
         std::move(cut.pieces.begin(), cut.pieces.end(), std::back_inserter(scene.bodies));
     }
+}
+
+void cut_again(SceneDescription& scene) {
+    std::erase_if(scene.bodies, [](const BodyDescription& body) { return body.piece_of.has_value(); });
+    append_pieces(scene);
 }
 
 }  // namespace tumble

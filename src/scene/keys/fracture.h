@@ -21,4 +21,7 @@ void vary_fracture(BodyDescription& body, std::uint64_t i);
 /// Appends the pieces NAME/0, NAME/1, ... of all bodies, after everything that names bodies is read.
 void append_pieces(SceneDescription& scene);
 
+/// The same for a scene that has pieces, after changes of the requests.
+void cut_again(SceneDescription& scene);
+
 }  // namespace tumble

@@ -1,5 +1,5 @@
 // The default camera by the motion: each scene's subject, as it moves, fills a good part of the frame and stays in it.
-#include "framing/motion_camera.h"
+#include "presimulation/motion_camera.h"
 #include "render/camera/camera.h"
 #include "scene/load.h"
 #include "sim/geometry/shapes/shape.h"

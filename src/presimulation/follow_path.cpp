@@ -1,4 +1,4 @@
-#include "framing/follow_path.h"
+#include "presimulation/follow_path.h"
 
 #include "core/deterministic_math.h"
 #include "core/error.h"

@@ -1,7 +1,7 @@
-#include "framing/motion_camera.h"
+#include "presimulation/motion_camera.h"
 
 #include "core/error.h"
-#include "framing/follow_path.h"
+#include "presimulation/follow_path.h"
 #include "scene/camera/default_camera.h"
 #include "sim/geometry/shapes/shape.h"
 #include "sim/world.h"

@@ -1,6 +1,6 @@
 // Cameras that come up with a body: the closed form of the critically damped answer, and the same path from any part.
-#include "framing/follow_path.h"
-#include "framing/motion_camera.h"
+#include "presimulation/follow_path.h"
+#include "presimulation/motion_camera.h"
 #include "scene/load.h"
 
 #include <gtest/gtest.h>
