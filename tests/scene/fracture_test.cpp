@@ -12,6 +12,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -293,6 +295,40 @@ TEST(Fracture, DefaultsOfTheMaterialFollowFromTheStrength) {
     EXPECT_NEAR(f.blow_time, 2.0 * std::sqrt(3.0) / std::sqrt(1e9 / 1000.0), 1e-15);
 }
 
+// Faces of plates are divided at their rims: without gaps between triangles, and with the surface of the cell.
+TEST(Fracture, DrawnSurfacesAreClosed) {
+    for (const std::size_t flat_one : {0, 1, 2, 5, 6}) {
+        const std::string& shape = shapes[flat_one];
+        const SceneDescription scene = cut(shape, "cells = 9");
+        for (const BodyDescription& body : scene.bodies) {
+            if (!body.piece_of) continue;
+            const MeshAsset& asset = *std::get<MeshShape>(body.shape).asset;
+            using Point = std::array<float, 3>;
+            std::map<std::pair<Point, Point>, int> edges;
+            double drawn = 0.0, flat = 0.0;
+            const auto point = [&](std::size_t i) {
+                const float(&p)[3] = asset.vertices[asset.indices[i]].position;
+                return Point{p[0], p[1], p[2]};
+            };
+            const auto vec = [](const Point& p) { return Vec3(p[0], p[1], p[2]); };
+            for (std::size_t t = 0; t < asset.indices.size(); t += 3) {
+                for (std::size_t k = 0; k < 3; ++k) ++edges[{point(t + k), point(t + (k + 1) % 3)}];
+                const Vec3 a = vec(point(t)), b = vec(point(t + 1)), c = vec(point(t + 2));
+                drawn += 0.5 * (b - a).cross(c - a).norm();
+            }
+            for (const auto& [edge, count] : edges)
+                if (edge.first != edge.second) {
+                    EXPECT_EQ(count, (edges[{edge.second, edge.first}])) << shape;
+                }
+            for (const auto& [a, b, c] : asset.mesh.triangles) {
+                const auto& v = asset.mesh.vertices;
+                flat += 0.5 * (v[b] - v[a]).cross(v[c] - v[a]).norm();
+            }
+            EXPECT_NEAR(drawn, flat, 1e-5 * flat) << shape;
+        }
+    }
+}
+
 TEST(Fracture, EveryKeyChangesTheHash) {
     const std::string fixed = "type = \"fixed\"\n";
     std::set<std::string> scenes, motions;
@@ -301,6 +337,7 @@ TEST(Fracture, EveryKeyChangesTheHash) {
                                              box + "fracture = { cells = 5, pattern = \"slabs\" }\n",
                                              box + "fracture = { cells = 5, seed = 2 }\n",
                                              box + "fracture = { cells = 5, focus = [0.1, 0, 0] }\n",
+                                             box + "fracture = { cells = 5, focus = \"impact\" }\n",
                                              box + "fracture = { cells = 5, pattern = \"slabs\", axis = [0, 1, 0] }\n",
                                              box + "fracture = { cells = 5, depth = 1 }\n",
                                              box + "fracture = { cells = 5, smallest = 0.01 }\n",

@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -105,6 +106,55 @@ std::vector<std::vector<Vec3>> corner_normals(const ConvexCell& cell) {
     return normals;
 }
 
+/// The triangles of a flat face. Ambient light is found at vertices: shade at a corner spreads over `rim` m at most.
+struct FlatFace {
+    std::vector<Vec3> points;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+FlatFace flat_face(const ConvexCell& cell, const ConvexCell::Face& face, double rim) {
+    FlatFace made;
+    std::vector<Vec3> corners;
+    std::vector<std::uint32_t> first;  // of each corner on the border
+    Vec3 center = Vec3::Zero();
+    for (const std::uint32_t v : face.vertices) corners.push_back(cell.vertices[v]);
+    const std::size_t count = corners.size();
+    double nearest = infinity;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vec3 &a = corners[i], &b = corners[(i + 1) % count];
+        const double length = (b - a).norm();
+        first.push_back(std::uint32_t(made.points.size()));
+        made.points.push_back(a);
+        if (length > 4.0 * rim) {  // the face beyond the edge has the same points
+            made.points.push_back(a + rim / length * (b - a));
+            made.points.push_back(b + rim / length * (a - b));
+        }
+        center += a / double(count);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vec3 edge = corners[(i + 1) % count] - corners[i];
+        nearest = std::min(nearest, face.normal.cross(edge.normalized()).dot(center - corners[i]));
+    }
+    const auto border = std::uint32_t(made.points.size());
+    if (nearest > 2.0 * rim) {
+        for (const Vec3& p : corners) made.points.push_back(p + rim / nearest * (center - p));
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const std::uint32_t next = (i + 1) % std::uint32_t(count), end = next == 0 ? border : first[next];
+            const std::uint32_t half = first[i] + (end - first[i]) / 2;
+            for (std::uint32_t k = first[i]; k < end; ++k)
+                made.triangles.push_back({k, (k + 1) % border, border + (k < half ? i : next)});
+            made.triangles.push_back({half, border + next, border + i});
+        }
+        for (std::uint32_t i = 2; i < count; ++i) made.triangles.push_back({border, border + i - 1, border + i});
+    } else if (border > count) {
+        made.points.push_back(center);
+        for (std::uint32_t k = 0; k < border; ++k) made.triangles.push_back({k, (k + 1) % border, border});
+    } else {
+        for (std::uint32_t i = 2; i < count; ++i) made.triangles.push_back({0, i - 1, i});
+    }
+    return made;
+}
+
 /// The mesh of a piece. Outer faces look as the part, inner ones have their own color.
 std::shared_ptr<const MeshAsset> piece_mesh(const ConvexCell& cell, const ConvexPart& part, const Appearance& look,
                                             Color inner, double tolerance) {
@@ -117,6 +167,9 @@ std::shared_ptr<const MeshAsset> piece_mesh(const ConvexCell& cell, const Convex
     std::vector<MeshAsset::Vertex> own;  // in the frame of the part, where textures have their places
     std::vector<bool> outer;             // of each triangle
     const Quat to_part = part.rotation.conjugate();
+    Bounds extent;
+    for (const Vec3& p : drawn.vertices) extent.add(to_part * p);
+    const double thickness = extent.extent().minCoeff();
     const auto vertex = [](const Vec3& p, const Vec3& n) {
         return MeshAsset::Vertex{{float(p.x()), float(p.y()), float(p.z())},
                                  {float(n.x()), float(n.y()), float(n.z())}};
@@ -124,13 +177,15 @@ std::shared_ptr<const MeshAsset> piece_mesh(const ConvexCell& cell, const Convex
     for (std::size_t f = 0; f < drawn.faces.size(); ++f) {
         const ConvexCell::Face& face = drawn.faces[f];
         const auto first = std::uint32_t(asset->vertices.size());
-        for (std::size_t i = 0; i < face.vertices.size(); ++i) {
-            const Vec3 &p = drawn.vertices[face.vertices[i]], &n = curved ? normals[f][i] : face.normal;
+        // Curved surfaces have small faces.
+        const FlatFace made = flat_face(drawn, face, curved ? infinity : thickness);
+        for (std::size_t i = 0; i < made.points.size(); ++i) {
+            const Vec3 &p = made.points[i], &n = curved ? normals[f][i] : face.normal;
             asset->vertices.push_back(vertex(p, n));
             own.push_back(vertex(to_part * (p - part.position), to_part * n));
         }
-        for (std::uint32_t i = 2; i < face.vertices.size(); ++i) {
-            asset->indices.insert(asset->indices.end(), {first, first + i - 1, first + i});
+        for (const auto& [a, b, c] : made.triangles) {
+            asset->indices.insert(asset->indices.end(), {first + a, first + b, first + c});
             outer.push_back(face.outer);
         }
     }
