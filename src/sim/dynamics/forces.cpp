@@ -289,15 +289,9 @@ Wrench ForceField::throughout_dry(std::size_t index, const Body& body, double fr
     return sum;
 }
 
-Wrench ForceField::throughout(std::size_t index, const Body& body, double from, double to) const {
+Wrench ForceField::throughout(std::size_t index, const Body& body, double from, double to, bool flies) const {
     Wrench sum = throughout_dry(index, body, from, to);
-    if (water_) add_water(sum, index, body, from, to - from, false);
-    return sum;
-}
-
-Wrench ForceField::flown(std::size_t index, const Body& body, double from, double to) const {
-    Wrench sum = throughout_dry(index, body, from, to);
-    if (water_) add_water(sum, index, body, from, to - from, true);
+    if (water_) add_water(sum, index, body, from, to - from, flies);
     return sum;
 }
 

@@ -49,7 +49,7 @@ public:
     }
     /// J, of the water that bodies displace. Zero with waves, whose forces have no potential.
     double water_potential(const std::vector<Body>& bodies) const;
-    /// The forces of the water alone, as those of throughout() and of flown().
+    /// The forces of the water alone in throughout().
     Wrench water(std::size_t index, const Body& body, double from, double to, bool flies) const;
     /// True if water at rest carries a part of the body's weight; true if moving water keeps it in motion.
     bool afloat(std::size_t index, const Body& body) const;
@@ -75,10 +75,9 @@ public:
 
     /// Gravity, wind and fields in [from, to), for the body's present state.
     Wrench fields(std::size_t index, const Body& body, double from, double to) const;
-    /// The same and the forces at points that act throughout [from, to), for the body's present state.
-    Wrench throughout(std::size_t index, const Body& body, double from, double to) const;
-    /// The same on a body that moves freely.
-    Wrench flown(std::size_t index, const Body& body, double from, double to) const;
+    /// The same and the forces at points that act throughout [from, to), for the body's present state. `flies`: the body
+    /// moves freely.
+    Wrench throughout(std::size_t index, const Body& body, double from, double to, bool flies = false) const;
     /// The same without forces that end at some time: for the part of a step that a clamped body loses.
     Wrench endless(std::size_t index, const Body& body, double from, double to) const;
     /// The impulse within [from, to) of the forces at points that act in only a part of it. The body rotates freely

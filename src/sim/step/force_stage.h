@@ -37,7 +37,7 @@ public:
     void list_held(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies);
     /// The forces that apply() gives to the body.
     Wrench wrench(std::uint32_t i, const Body& body, double from, double to) const {
-        return flies(i) ? field_.flown(i, body, from, to) : field_.throughout(i, body, from, to);
+        return field_.throughout(i, body, from, to, flies(i));
     }
 
     /// Which derived quantities of the awake bodies are out of date when the forces are applied.
