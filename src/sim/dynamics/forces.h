@@ -75,8 +75,8 @@ public:
 
     /// Gravity, wind and fields in [from, to), for the body's present state.
     Wrench fields(std::size_t index, const Body& body, double from, double to) const;
-    /// The same and the forces at points that act throughout [from, to), for the body's present state. `flies`: the body
-    /// moves freely.
+    /// The same and the forces at points that act throughout [from, to), for the body's present state. `flies`: no
+    /// contact and no joint holds it.
     Wrench throughout(std::size_t index, const Body& body, double from, double to, bool flies = false) const;
     /// The same without forces that end at some time: for the part of a step that a clamped body loses.
     Wrench endless(std::size_t index, const Body& body, double from, double to) const;

@@ -27,7 +27,7 @@ void DrivenFlights::begin_step(std::vector<Body>& bodies, const ForceField& forc
 }
 
 void DrivenFlights::forgo_points(std::uint32_t body) {
-    if (!forces_->has_points(body) || std::ranges::binary_search(without_points_, body)) return;
+    if (!forces_->has_points(body) || std::binary_search(without_points_.begin(), without_points_.end(), body)) return;
     without_points_.push_back(body);
     sort_unique(without_points_);
     rest_ = forces_->without_points(without_points_);
@@ -42,7 +42,7 @@ void DrivenFlights::start_pairs(std::span<const std::uint32_t> flying, double fr
     std::vector<PairFlight::Member> members;
     for (const std::uint32_t i : forces_->pairs().bodies()) {
         const Body& body = (*bodies_)[i];
-        members.push_back({std::ranges::binary_search(flying, i),
+        members.push_back({std::binary_search(flying.begin(), flying.end(), i),
                            IntegratorKind::exact,
                            state_of(body),
                            {body.velocity, body.angular_velocity}});
