@@ -101,6 +101,15 @@ double Body::reach() const {
     return farthest;
 }
 
+double Water::surface(double x, double time) const {
+    const double k = 2.0 * std::numbers::pi / wave_length;
+    return 0.5 * wave_height * std::cos(k * x - std::sqrt(g * k) * time);
+}
+
+bool Scene::has_water_or_breakage() const {
+    return water || std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return bool(body.breakage); });
+}
+
 double mean_projected_area(const Body& body) {
     if (body.kind == Kind::sphere) return std::numbers::pi * body.radius * body.radius;
     return 0.5 * (body.size.x * body.size.y + body.size.y * body.size.z + body.size.z * body.size.x);

@@ -48,6 +48,14 @@ struct BoxPart {
     Orientation orientation;
 };
 
+/// A body of cells that part where a load is above the strength of the bonds between them.
+struct Breakage {
+    int cells = 0;
+    double strength = 0.0, stiffness = 0.0;  // Pa
+    double toughness = 0.0;                  // J/m^2 of new surface
+    double blow_time = 0.0;                  // s, in which an impulse acts
+};
+
 struct Body {
     Kind kind = Kind::sphere;
     Vector size;                   // box: edge lengths, m
@@ -64,6 +72,7 @@ struct Body {
     Orientation orientation;
     Vector velocity;          // m/s
     Vector angular_velocity;  // rad/s, world frame
+    std::optional<Breakage> breakage;
 
     bool moves() const { return !fixed && kind != Kind::plane; }
     Vector principal_inertia() const;  // kg m^2, about the body's own axes
@@ -79,6 +88,17 @@ struct Air {
 /// A force fixed in the body, at a point of it.
 struct PointForce {
     Vector point, force;  // m and N, body frame
+};
+
+/// Deep water below z = 0, at rest but for one wave that travels along x (Airy 1845). Drag of an element of the wet
+/// surface that shows the area A to the flow: 1/2 density drag A v^2; and 6 pi viscosity r v, with r of a ball of the
+/// wet volume.
+struct Water {
+    double density = 1000.0;                      // kg/m^3
+    double drag = 1.0, viscosity = 0.0;           // -, Pa s
+    double wave_height = 0.0;                     // m, from trough to crest; 0: still water
+    double wave_length = 1.0;                     // m
+    double surface(double x, double time) const;  // m, z
 };
 
 /// A torque that is fixed in the body.
@@ -122,8 +142,11 @@ struct Scene {
     std::optional<PointForce> push;  // acts on body 0
     std::vector<Torque> torques;
     std::vector<Spring> springs;
+    std::optional<Water> water;   // in scenes without joints and forces
     bool breaks_watched = false;  // joints may stay whole where they should break: a watch looks at their forces
 
+    /// True if bodies swim, or break.
+    bool has_water_or_breakage() const;
     bool has_forces() const { return air || push || !torques.empty() || !springs.empty(); }
 };
 
@@ -145,7 +168,7 @@ double mean_projected_area(const Body& body);
 /// fixed body the friction of its pair with the first moving body, for a moving body its own.
 double told_friction(const Scene& scene, const Body& body);
 
-/// Kinetic and potential energy, J.
+/// Kinetic energy and that of the weights, J.
 double energy(const Scene& scene, const std::vector<Motion>& motions);
 Vector angular_momentum(const Body& body, const Motion& motion);  // about its center of mass, kg m^2/s
 

@@ -31,6 +31,7 @@ struct Outcome {
 
 Outcome run(const Trial& trial, const StabilityWay& way, double rate) {
     if (trial.scene.bodies.size() > way.most_bodies) return {0.0, Verdict::none, 0};
+    if (trial.scene.has_water_or_breakage() && !way.water_and_breakage) return {0.0, Verdict::none, 0};
     const auto world = way.make(trial.scene, rate);
     if (!world) return {0.0, Verdict::none, 0};
     Outcome outcome;
@@ -46,7 +47,8 @@ Outcome run(const Trial& trial, const StabilityWay& way, double rate) {
             motions[b] = world->motion(b);
             sane = sane && finite(motions[b]);
         }
-        const double now = sane ? trial.watch(double(i) / rate, motions) : HUGE_VAL;
+        double now = sane ? trial.watch(double(i) / rate, motions) : HUGE_VAL;
+        if (trial.watch_totals && sane) now = std::max(now, trial.watch_totals(double(i) / rate, *world->totals()));
         outcome.worst = std::isnan(now) ? HUGE_VAL : std::max(outcome.worst, now);
         outcome.steps = i;
         if (outcome.worst > 1.0) {

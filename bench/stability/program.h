@@ -12,6 +12,7 @@ struct StabilityWay {
     bool contacts = true;  // false: a way that differs from the program's first one in flight alone
     std::function<std::unique_ptr<Simulator>(const Scene&, double rate)> make;  // null: cannot represent the scene
     std::size_t most_bodies = 100000;
+    bool water_and_breakage = false;  // true if it represents scenes with water and with bodies that break
 };
 
 /// Runs the cases and returns the exit code. Options: --case NAME and --way NAME (repeatable), --quick, --list,

@@ -18,7 +18,8 @@ MUST_PASS = [
     ("stack", ".*", 5), ("heavy on light", ".*", 1), ("far from the origin", ".*", 1e5), ("600 s of rest", ".*", 3),
     ("spin", EXACT, 1e5), ("spin", ".*", 1), ("inertia ratio", EXACT, 1e6), ("inertia ratio", ".*", 1),
     ("a million steps of tumbling", ".*", 10), ("thin wall", ".*", 1e4), ("restitution", ".*", 1), ("friction", ".*", 10),
-    ("deep overlap", ".*", 0.5), ("random: finite", ".*", 3), ("random: normals", ".*", 3),
+    ("deep overlap", ".*", 0.5), ("breaking plate", EXACT, 30), ("plate strength", EXACT, 1e8), ("box in water", "symplectic-euler|" + EXACT, 1e3),
+    ("box on waves", ".*", 100), ("random: finite", ".*", 3), ("random: normals", ".*", 3),
 ]
 
 

@@ -10,6 +10,8 @@ std::vector<StabilityCase> stability_cases() {
     add_spins(cases);
     add_strikes(cases);
     add_joints(cases);
+    add_breaking(cases);
+    add_water(cases);
     return cases;
 }
 

@@ -5,9 +5,10 @@
 int main(int argc, char** argv) {
     using namespace tumble;
     const auto way = [](const std::string& name, bool contacts, IntegratorKind integrator, ImpactMode impacts) {
-        return bench::StabilityWay{name, contacts, [=](const bench::Scene& scene, double rate) {
-                                       return bench::make_tumble(scene, rate, {integrator, impacts});
-                                   }};
+        const auto make = [=](const bench::Scene& scene, double rate) {
+            return bench::make_tumble(scene, rate, {integrator, impacts});
+        };
+        return bench::StabilityWay{.name = name, .contacts = contacts, .make = make, .water_and_breakage = true};
     };
     return bench::run_stability(argc, argv, "Tumble",
                                 {way("symplectic-euler", true, IntegratorKind::symplectic_euler, ImpactMode::stepped),

@@ -1,6 +1,9 @@
 #include "tumble/tumble_simulator.h"
 
+#include "scene/keys/fracture.h"
 #include "sim/world.h"
+
+#include <numbers>
 
 namespace tumble::bench {
 namespace {
@@ -32,6 +35,17 @@ CompoundShape compound_of(const Body& body) {
     return {parts};
 }
 
+std::shared_ptr<const FractureDescription> cut_of(const Breakage& breakage) {
+    auto cut = std::make_shared<FractureDescription>();
+    cut->cells = breakage.cells;
+    cut->strength = breakage.strength;
+    cut->shear_strength = 1.6 * breakage.strength;
+    cut->stiffness = breakage.stiffness;
+    cut->toughness = breakage.toughness;
+    cut->blow_time = breakage.blow_time;
+    return cut;
+}
+
 BodyDescription described(const Body& body, std::size_t index) {
     BodyDescription d;
     d.name = std::to_string(index);
@@ -60,6 +74,7 @@ BodyDescription described(const Body& body, std::size_t index) {
     d.rotation = Quat(body.orientation.w, body.orientation.x, body.orientation.y, body.orientation.z);
     d.velocity = vec(body.velocity);
     d.angular_velocity = vec(body.angular_velocity);
+    if (body.breakage) d.fracture = cut_of(*body.breakage);
     return d;
 }
 
@@ -143,6 +158,26 @@ void add_spring(SceneDescription& d, const Spring& spring) {
     d.joints.push_back(joint);
 }
 
+// Tumble's water is below a y: its world lies on its side there.
+Vec3 lie(const Vec3& v) { return {v.x(), v.z(), -v.y()}; }
+Vec3 stand(const Vec3& v) { return {v.x(), -v.z(), v.y()}; }
+const Quat lying(0.5 * std::numbers::sqrt2, -0.5 * std::numbers::sqrt2, 0.0, 0.0);
+
+void add_water(SceneDescription& d, const Water& water) {
+    d.simulation.gravity = lie(d.simulation.gravity);
+    for (BodyDescription& body : d.bodies) {
+        body.position = lie(body.position);
+        body.rotation = lying * body.rotation;
+        body.velocity = lie(body.velocity);
+        body.angular_velocity = lie(body.angular_velocity);
+    }
+    d.water.emplace();
+    d.water->density = water.density;
+    d.water->drag = water.drag;
+    d.water->viscosity = water.viscosity;
+    if (water.wave_height > 0.0) d.water->waves = {{.height = water.wave_height, .length = water.wave_length}};
+}
+
 SceneDescription described(const Scene& scene, double rate, const TumbleSettings& settings) {
     SceneDescription d;
     d.output.fps = rate;  // one frame per step, so that step-free ways gain no more from frames than from steps
@@ -161,13 +196,15 @@ SceneDescription described(const Scene& scene, double rate, const TumbleSettings
             {0, vec(scene.push->point), vec(scene.push->force), true, 0.0, std::numeric_limits<double>::infinity()});
     for (const Torque& turning : scene.torques) add_torque(d, turning);
     for (const Spring& spring : scene.springs) add_spring(d, spring);
+    if (scene.water) add_water(d, *scene.water);
+    append_pieces(d);
     return d;
 }
 
 class TumbleSimulator : public Simulator {
 public:
     TumbleSimulator(const Scene& scene, double rate, const TumbleSettings& settings)
-        : world_(described(scene, rate, settings), settings.threads) {}
+        : world_(described(scene, rate, settings), settings.threads), lies_(bool(scene.water)) {}
 
     void step() override {
         world_.advance_frame();
@@ -175,21 +212,40 @@ public:
     }
 
     Motion motion(std::size_t body) const override {
-        if (!fresh_) snapshot_ = world_.snapshot();
-        fresh_ = true;
-        const BodyState& s = snapshot_.bodies[body];
+        const BodyState& s = snapshot().bodies[body];
+        if (lies_) {
+            const Quat q = lying.conjugate() * s.orientation;
+            return {vector(stand(s.center_of_mass)),
+                    {q.w(), q.x(), q.y(), q.z()},
+                    vector(stand(s.velocity)),
+                    vector(stand(s.angular_velocity))};
+        }
         const Quat& q = s.orientation;
         return {vector(s.center_of_mass), {q.w(), q.x(), q.y(), q.z()}, vector(s.velocity), vector(s.angular_velocity)};
     }
 
     std::optional<double> broken_at(std::size_t joint) const override { return world_.joint_states()[joint].broken_at; }
 
+    std::optional<Totals> totals() const override {
+        const Measurement sums = world_.measure();
+        Totals all{vector(sums.momentum), vector(sums.angular_momentum), sums.kinetic, 0};
+        for (const BodyState& s : snapshot().bodies) all.bodies += s.mass > 0.0 && !s.absent;
+        return all;
+    }
+
     std::optional<Vector> joint_force(std::size_t joint) const override {
         return vector(world_.joint_states()[joint].force);
     }
 
 private:
+    const Snapshot& snapshot() const {
+        if (!fresh_) snapshot_ = world_.snapshot();
+        fresh_ = true;
+        return snapshot_;
+    }
+
     World world_;
+    bool lies_ = false;  // see add_water()
     mutable Snapshot snapshot_;
     mutable bool fresh_ = false;
 };
