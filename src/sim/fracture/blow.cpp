@@ -49,18 +49,19 @@ bool Blow::resolve() {
     set_velocities(island_, start_);
     if (!solved) return false;
 
-    std::optional<Trial> accepted;
-    std::vector<BondGraph> graphs;  // of the accepted trial, by target
+    std::optional<Trial> accepted, idle;  // idle: the last one so far, which frees no energy
+    std::vector<BondGraph> graphs;        // of the accepted trial, by target
     std::size_t cuts = 0;
     double surface = 0.0;
     while (!fails.empty()) {
         cut(fails);
         Trial trial = part(rigid);
         const std::size_t pieces = trial.island.bodies.size();
-        if (trial.partings.empty() || (accepted && accepted->island.bodies.size() == pieces)) {
+        const Trial* last = accepted ? &*accepted : idle ? &*idle : nullptr;
+        if (trial.partings.empty() || (last && last->island.bodies.size() == pieces)) {
             // The bodies are as they were: the loads are the same.
-            fails = failing(accepted ? accepted->contacts : whole, accepted ? accepted->sides_a : sides_a_,
-                            accepted ? accepted->sides_b : sides_b_);
+            fails = failing(last ? last->contacts : whole, last ? last->sides_a : sides_a_,
+                            last ? last->sides_b : sides_b_);
             continue;
         }
         if (!resolve_impact(trial.island, trial.contacts, stop)) break;
@@ -68,8 +69,14 @@ bool Blow::resolve() {
         set_velocities(trial.island, trial.start);
         const double before = product(trial.island, trial.rigid, trial.rigid);
         const double after = product(trial.island, trial.free, trial.free);
-        if (after - 2.0 * surface_ < before - energy_rounding * after) break;
+        const bool pays = after - 2.0 * surface_ >= before - energy_rounding * after;
+        // A piece that the rest pushes along frees nothing, but does not keep others from it.
+        if (!pays && (accepted || after > before + energy_rounding * after)) break;
         fails = failing(trial.contacts, trial.sides_a, trial.sides_b);
+        if (!pays) {
+            idle = std::move(trial);
+            continue;
+        }
         accepted = std::move(trial);
         graphs.clear();
         for (const Target& t : targets_) graphs.push_back(t.graph);
