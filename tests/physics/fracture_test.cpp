@@ -340,6 +340,43 @@ TEST(Fracture, ABridgeBreaksUnderALoad) {
     }
 }
 
+// Loads that have hardly changed are not even found. With a force at a point of the body they are found in each step: a
+// force of zero shows that no break is missed or late, under a weight that grows slowly and a ball that rolls along.
+TEST(Fracture, LoadsThatGrowSlowlyAreSeen) {
+    const std::string bridge =
+        "[simulation]\nsleep = false\nsteps_per_frame = 16\n"
+        "[[body]]\ndensity = 200\nstrength = 1e6\nshear_strength = 1e12\nstiffness = 1e9\nposition = [0, 1.05, 0]\n"
+        "friction = 0.5\nshape = { type = \"box\", size = [2.2, 0.1, 0.1] }\n"
+        "fracture = { cells = 22, pattern = \"slabs\" }\n"
+        "[[body]]\ntype = \"fixed\"\nshape = { type = \"box\", size = [0.1, 0.2, 0.3] }\nposition = [-1, 0.9, 0]\n"
+        "[[body]]\ntype = \"fixed\"\nshape = { type = \"box\", size = [0.1, 0.2, 0.3] }\nposition = [1, 0.9, 0]\n";
+    std::string growing =
+        "[[body]]\nname = \"weight\"\ndensity = 500\nfriction = 0.5\nrestitution = 0\nposition = [0.03, 1.15, 0]\n"
+        "shape = { type = \"box\", size = [0.1, 0.1, 0.1] }\n";
+    double force = 295.0;
+    for (int k = 0; k < 120; ++k, force *= 1.0015)
+        growing += "[[force]]\nbody = \"weight\"\npoint = [0, 0, 0]\nforce = [0, " + std::to_string(-force) +
+                   ", 0]\nstart = " + std::to_string(0.25 + k / 60.0) +
+                   "\nend = " + std::to_string(0.25 + (k + 1) / 60.0) + "\n";
+    const std::string rolling =
+        "[[body]]\nname = \"ball\"\nmass = 40\nfriction = 0.5\nrestitution = 0\nposition = [-0.9, 1.2, 0]\n"
+        "shape = { type = \"sphere\", radius = 0.1 }\nvelocity = [0.7, 0, 0]\nangular_velocity = [0, 0, -7]\n";
+    const std::string found = "[[force]]\nbody = \"0\"\npoint = [0, 0, 0]\nforce = [0, 0, 0]\n";
+    for (const std::string& load : {growing, rolling}) {
+        const std::vector<BreakRecord> skipped = breaks_of(scene_of(bridge + load), 140),
+                                       examined = breaks_of(scene_of(bridge + load + found), 140);
+        ASSERT_FALSE(examined.empty());
+        EXPECT_GT(examined[0].time, 0.3);
+        ASSERT_EQ(skipped.size(), examined.size());
+        for (std::size_t i = 0; i < skipped.size(); ++i) {
+            EXPECT_EQ(skipped[i].time, examined[i].time);
+            EXPECT_EQ(skipped[i].bond, examined[i].bond);
+            EXPECT_EQ(skipped[i].tension, examined[i].tension);
+            EXPECT_EQ(skipped[i].bending, examined[i].bending);
+        }
+    }
+}
+
 TEST(Fracture, ThreadsAndCheckpointsDoNotMatter) {
     for (const std::string mode : {"stepped", "exact"}) {
         const SceneDescription scene =

@@ -22,6 +22,19 @@ constexpr double changed_load = 0.01;
 /// Times of a blow after which the mean of a constant load has come within e^-7, 0.1 %, of it.
 constexpr double settling_times = 7.0;
 
+/// Share of a speed below which rounding does not matter. Not fitted.
+constexpr double surely_below = 0.99;
+
+// m/s, at least the speed at which points of two bodies approach each other that are within `reach` (m) of both.
+double fastest_approach(const Body& a, const Body& b, double reach) {
+    double sum = (b.velocity - a.velocity).cwiseAbs().sum();
+    for (const Body* body : {&a, &b}) {
+        const double spin = body->angular_velocity.cwiseAbs().sum();
+        if (spin > 0.0) sum += spin * (body->radius + reach);
+    }
+    return sum;
+}
+
 }  // namespace
 
 // Only bodies that break are resolved here: each time the contacts are found again, of one body less.
@@ -32,7 +45,7 @@ void FractureStage::strike(const StepContext& step, ContactDetection& detection,
 
 // Each cell takes its own impulse, as the pieces will.
 bool FractureStage::blast(const StepContext& step, ContactDetection& detection, MotionStage& motion) {
-    if (empty()) return false;
+    if (empty() || step.forces.field().explosions().empty()) return false;
     const auto explosions = step.forces.field().explosions().within(step.start(), step.end());
     if (explosions.empty()) return false;
     std::vector<BreakableBody::Parting> partings;
@@ -70,6 +83,7 @@ bool FractureStage::struck(std::span<const std::uint32_t> manifolds, const StepC
         const Body &a = bodies[m.a], &b = bodies[m.b];
         if (!a.breakable && !b.breakable) continue;
         const double touch = touch_distance(a.radius, b.radius);
+        if (fastest_approach(a, b, touch) < surely_below * threshold) continue;
         for (int i = 0; i < m.count; ++i) {
             const ContactPoint& p = m.points[std::size_t(i)];
             if (p.separation <= touch && relative_velocity(p, m.normal, a, b) < -threshold) return true;
@@ -193,8 +207,9 @@ void FractureStage::find_loads(const StepContext& step, ContactDetection& detect
 }
 
 void FractureStage::yield(const StepContext& step, ContactDetection& detection, MotionStage& motion) {
-    if (empty()) return;
+    if (empty() || watch_.quiet(detection.manifolds(), step)) return;
     find_loads(step, detection);
+    margins_.assign(bodies_.size(), {});
     std::vector<BreakableBody::Parting> partings;
     auto from = loads_.begin();
     for (std::uint32_t entry = 0; entry < bodies_.size(); ++entry) {
@@ -207,6 +222,12 @@ void FractureStage::yield(const StepContext& step, ContactDetection& detection, 
         part(entry, std::move(*graph), breaks, step, partings);
     }
     finish(partings, step, detection, motion);
+    const bool settled =
+        std::all_of(last_.begin(), last_.end(), [](const Examined& last) { return last.settling == 0; });
+    if (partings.empty() && settled)
+        watch_.note(detection.manifolds(), step, bodies_, margins_);
+    else
+        watch_.forget();
 }
 
 void FractureStage::part(std::uint32_t entry, BondGraph graph, std::vector<BreakRecord>& breaks,
@@ -232,16 +253,17 @@ void FractureStage::finish(std::span<const BreakableBody::Parting> partings, con
     motion.exchange(step, changed_bodies(partings));
 }
 
-bool FractureStage::changed(const std::vector<Load>& now, const Examined& last, double size) const {
-    if (now.size() != last.loads.size()) return true;
-    double change = 0.0, sum = 0.0;
+FractureStage::Difference FractureStage::difference(const std::vector<Load>& then, const std::vector<Load>& now,
+                                                    double size) {
+    Difference d;
     for (std::size_t i = 0; i < now.size(); ++i) {
-        const Load &a = last.loads[i], &b = now[i];
-        sum += b.force.norm() + b.torque.norm() / size;
-        change += (b.force - a.force).norm() +
-                  ((b.torque - a.torque).norm() + b.force.norm() * (b.point - a.point).norm()) / size;
+        const Load &a = then[i], &b = now[i];
+        const double force = b.force.norm(), moved = (b.point - a.point).norm();
+        d.sum += force + b.torque.norm() / size;
+        d.change += (b.force - a.force).norm() + ((b.torque - a.torque).norm() + force * moved) / size;
+        d.moved = std::max(d.moved, moved / size);
     }
-    return change > changed_load * std::max(0.0, 1.0 - last.utilization) * sum;
+    return d;
 }
 
 // The bonds without those that fail; nothing if none does.
@@ -275,7 +297,15 @@ std::optional<BondGraph> FractureStage::examine(std::uint32_t entry, std::span<c
     const bool sleeps = std::none_of(body.pieces().begin(), body.pieces().end(), may_break);
     const double share = std::min(1.0, step.h / body.blow_time());  // of a step in the mean
     // Asleep it keeps its last loads.
-    if (!sleeps && changed(now, last, size))
+    bool changed = false;
+    if (!sleeps) {
+        Difference now_differs;
+        const double unexamined = changed_load * std::max(0.0, 1.0 - last.utilization);
+        if (now.size() == last.loads.size()) now_differs = difference(last.loads, now, size);
+        changed = now.size() != last.loads.size() || now_differs.change > unexamined * now_differs.sum;
+        margins_[entry] = {unexamined * now_differs.sum - now_differs.change, now_differs.sum, size, now_differs.moved};
+    }
+    if (changed)
         last.settling = share < 1.0 ? int(settling_times / share) : 0;
     else if (last.settling == 0)
         return std::nullopt;
@@ -292,7 +322,12 @@ std::optional<BondGraph> FractureStage::examine(std::uint32_t entry, std::span<c
         mean.force += share * (last.cells[cell].force - mean.force);
         mean.torque += share * (last.cells[cell].torque - mean.torque);
     }
-    return cut(entry, last.means, step, breaks, last.utilization);
+    std::optional<BondGraph> left = cut(entry, last.means, step, breaks, last.utilization);
+    if (!sleeps) {
+        const double sum = difference(last.loads, last.loads, size).sum;
+        margins_[entry] = {changed_load * std::max(0.0, 1.0 - last.utilization) * sum, sum, size, 0.0};
+    }
+    return left;
 }
 
 std::vector<Wrench> FractureStage::loads_of_cells(std::uint32_t entry, std::span<const PieceLoad> piece_loads,
@@ -383,6 +418,7 @@ void FractureStage::finish_events(const StepContext& step, ContactDetection& det
 // All that knows bodies by their index or their shape, but their motion.
 void FractureStage::exchange(std::span<const std::uint32_t> changed, const StepContext& step,
                              ContactDetection& detection) {
+    watch_.forget();
     move_forces(step);
     step.set.exchange(changed);
     step.sleep.exchange(changed);

@@ -8,6 +8,7 @@
 #include "sim/snapshot/break_record.h"
 #include "sim/snapshot/contact_records.h"
 #include "sim/step/body_set.h"
+#include "sim/step/load_watch.h"
 
 #include <cstdint>
 #include <optional>
@@ -56,9 +57,10 @@ public:
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [bodies, last, breaks, loads, now, event, exchanged] = self;
+        auto& [bodies, last, breaks, loads, now, event, exchanged, watch, margins] = self;
         archive.keep(bodies, breaks);
         archive.scratch(loads, now, event, exchanged);
+        archive.scratch(watch, margins);  // it saves work alone
         for (auto& load : last) archive.keep(load);
     }
 
@@ -94,7 +96,12 @@ private:
     };
     static Load load_on(const Body& body, const Vec3& force, const Vec3& torque, const Vec3& point);
     void find_loads(const StepContext& step, ContactDetection& detection);
-    bool changed(const std::vector<Load>& now, const Examined& last, double size) const;
+    /// The difference of two lists of loads of the same length. `size`: m, by which torques are divided.
+    struct Difference {
+        double change = 0.0, sum = 0.0;  // N, the sum of the second list
+        double moved = 0.0;              // the largest distance of two points, over the size
+    };
+    static Difference difference(const std::vector<Load>& then, const std::vector<Load>& now, double size);
     /// The bonds of an entry without those that fail under loads on its cells (N, N m); nothing if none does.
     std::optional<BondGraph> cut(std::uint32_t entry, std::span<const Wrench> loads, const StepContext& step,
                                  std::vector<BreakRecord>& breaks, double& utilization);
@@ -120,6 +127,8 @@ private:
     std::vector<Load> now_;                 // of the body at hand
     BlowResult event_;                      // of the last event
     std::vector<std::uint32_t> exchanged_;  // by events
+    LoadWatch watch_;
+    std::vector<LoadWatch::Margin> margins_;  // of the step, by entry
 };
 
 }  // namespace tumble
