@@ -66,7 +66,7 @@ const std::map<std::string, std::string> known = {
     {"sim/contact/model/rotational_friction.cpp", "parts of compounds"},
     {"sim/fields/explosions.cpp", "solid angles in closed form"},
     {"sim/dynamics/forces.cpp", "meshes that enclose their mass: their volume in water"},
-    {"sim/water/drag_surface.cpp", "balls in closed form; triangles around curved parts"},
+    {"sim/water/hull_parts.cpp", "balls and curved parts as triangles"},
     {"sim/fracture/breakable_body.cpp", "cells are polyhedra; pieces of several are compounds"},
     {"sim/dynamics/body_builder.cpp", "a given center of mass: a compound of one part"},
     {"sim/geometry/collide.cpp", "parts of compounds"},

@@ -4,14 +4,11 @@
 #include "sim/water/gauss.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <utility>
 
 namespace tumble {
 namespace {
-
-/// Sides around the axis of a curved body, and rings from its middle to an end. Its area is scaled to the true one.
-constexpr int curved_sides = 16, curved_rings = 4;
 
 /// Error of the area that a ball shows, over its square radius: far below the error of the law of drag.
 constexpr double ball_tolerance = 1e-12;
@@ -24,12 +21,6 @@ constexpr std::array<TrianglePoint, 2> triangle_rule{
     TrianglePoint{0.44594849091596488632, 0.10810301816807022736, 0.22338158967801146570},
     TrianglePoint{0.09157621350977074346, 0.81684757298045851308, 0.10995174365532186764}};
 
-/// Share of the force on a flat face that acts against the motion; the rest is pressure along the normal. A cube that
-/// moves edge first takes 3/4 of the force by its area (measured: 0.8 to 1.05 in C, Hoerner 1965, "Fluid-Dynamic
-/// Drag"), and a plate at an angle is lifted: swimmers get their thrust by it. On curved faces all of it acts against
-/// the motion.
-constexpr double flat_share = 0.5;
-
 struct Element {
     const FlowPast& flow;
     const Vec3 &center, &axis;
@@ -38,16 +29,14 @@ struct Element {
 
     void add(const Vec3& a, const Vec3& b, const Vec3& c) {
         const Vec3 area = 0.5 * (b - a).cross(c - a);
-        const double square = area.squaredNorm();
-        if (!(square > 0.0)) return;
+        if (!(area.squaredNorm() > 0.0)) return;
         for (const TrianglePoint& p : triangle_rule)
             for (const Vec3& at : {Vec3(p.far * a + p.near * (b + c)), Vec3(p.far * b + p.near * (c + a)),
                                    Vec3(p.far * c + p.near * (a + b))}) {
                 const Vec3 w = flow.velocity + flow.angular_velocity.cross(at);
                 // Turning about its own axis moves no surface of revolution through the water.
                 const Vec3 past = w - flow.angular_velocity.dot(axis) * axis.cross(at - center);
-                const Vec3 f = 0.5 * p.weight * std::abs(area.dot(past)) *
-                               (share * w + (1.0 - share) / square * area.dot(w) * area);
+                const Vec3 f = element_drag(0.5 * p.weight, area, share, w, past);
                 sum.force += f;
                 sum.torque += at.cross(f);
             }
@@ -78,78 +67,14 @@ double shown_area(double h, double cosine) {
     return 0.5 * (sum + pi * (1.0 - h * h) * c);
 }
 
-/// Heights and radii of rings from the lower end of a surface of revolution to the upper one.
-std::vector<std::pair<double, double>> rings_of(const CurvedBody& body) {
-    std::vector<std::pair<double, double>> rings;
-    const auto& [low, high] = body.discs;
-    if (!body.ellipsoid && body.rounding == 0.0)
-        return {{low.y, 0.0}, {low.y, low.radius}, {high.y, high.radius}, {high.y, 0.0}};
-    const double r = body.ellipsoid ? 1.0 : body.rounding;
-    for (int k = -curved_rings; k <= curved_rings; ++k) {
-        const SinCos turn = sincos(0.5 * pi * k / curved_rings);
-        const double middle = k < 0 ? low.y : high.y, out = std::abs(k) == curved_rings ? 0.0 : r * turn.cos;
-        if (body.ellipsoid) {
-            rings.emplace_back(body.radii.y() * turn.sin, out);
-            continue;
-        }
-        if (k == 0) rings.emplace_back(low.y, r);
-        rings.emplace_back(middle + r * turn.sin, out);
-    }
-    return rings;
-}
-
-double area_of(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles) {
-    double sum = 0.0;
-    for (const auto& [a, b, c] : triangles)
-        sum += 0.5 * (vertices[b] - vertices[a]).cross(vertices[c] - vertices[a]).norm();
-    return sum;
-}
+constexpr Facets drag_facets{16, 4, false};
 
 }  // namespace
 
-DragSurface::DragSurface(const CollisionShape& shape) { add(shape, {}); }
+DragSurface::DragSurface(const CollisionShape& shape) : parts_(hull_parts(shape, drag_facets)) {}
 
-void DragSurface::add(const CollisionShape& shape, const Pose& place) {
-    if (const auto* compound = std::get_if<std::shared_ptr<const Compound>>(&shape)) {
-        for (const Compound::Part& part : (*compound)->parts) add(part.collider, part_pose(place, part));
-        return;
-    }
-    Part part;
-    part.center = place.position;
-    if (const auto* ball = std::get_if<Ball>(&shape)) {
-        part.ball = ball->radius;
-    } else if (const auto* hull = std::get_if<std::shared_ptr<const Polyhedron>>(&shape)) {
-        part.vertices = (*hull)->vertices;
-        for (const Polyhedron::Face& face : (*hull)->faces)
-            for (std::size_t k = 2; k < face.vertices.size(); ++k)
-                part.triangles.push_back({face.vertices[0], face.vertices[k - 1], face.vertices[k]});
-    } else if (const auto* curved = std::get_if<std::shared_ptr<const CurvedBody>>(&shape)) {
-        const CurvedBody& body = **curved;
-        const double rx = body.ellipsoid ? body.radii.x() : 1.0, rz = body.ellipsoid ? body.radii.z() : 1.0;
-        if (rx == rz) part.axis = place.rotation * Vec3::UnitY();
-        const auto rings = rings_of(body);
-        for (const auto& [y, r] : rings)
-            for (int k = 0; k < curved_sides; ++k) {
-                const SinCos turn = sincos(2.0 * pi * k / curved_sides);
-                part.vertices.push_back({rx * r * turn.cos, y, rz * r * turn.sin});
-            }
-        for (std::uint32_t ring = 0; ring + 1 < rings.size(); ++ring)
-            for (std::uint32_t k = 0; k < curved_sides; ++k) {
-                const std::uint32_t next = (k + 1) % curved_sides, low = ring * curved_sides, high = low + curved_sides;
-                if (rings[ring].second > 0.0) part.triangles.push_back({low + k, high + k, low + next});
-                if (rings[ring + 1].second > 0.0) part.triangles.push_back({low + next, high + k, high + next});
-            }
-        part.scale = 4.0 * body.mean_projected_area() / area_of(part.vertices, part.triangles);
-    } else {
-        return;
-    }
-    for (Vec3& v : part.vertices) v = place.to_world(v);
-    parts_.push_back(std::move(part));
-}
-
-DragIntegral DragSurface::drag_of(const Part& part, const WaterPlane& plane, const FlowPast& flow) const {
-    const bool flat = part.scale == 1.0;  // curved surfaces are scaled
-    Element element{flow, part.center, part.axis, flat ? flat_share : 1.0, {}};
+DragIntegral DragSurface::drag_of(const HullPart& part, const WaterPlane& plane, const FlowPast& flow) const {
+    Element element{flow, part.center, part.axis, drag_share(part), {}};
     if (part.ball > 0.0) {
         const double r = part.ball, height = (plane.offset - plane.normal.dot(part.center)) / r;
         const Vec3 w = flow.velocity + flow.angular_velocity.cross(part.center);
@@ -215,7 +140,7 @@ DragIntegral DragSurface::drag_of(const Part& part, const WaterPlane& plane, con
 
 DragIntegral DragSurface::drag(const WaterPlane& plane, const FlowPast& flow) const {
     DragIntegral sum;
-    for (const Part& part : parts_) {
+    for (const HullPart& part : parts_) {
         const DragIntegral one = drag_of(part, plane, flow);
         sum.force += one.force;
         sum.torque += one.torque;

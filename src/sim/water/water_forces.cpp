@@ -7,10 +7,23 @@
 #include <utility>
 
 namespace tumble {
+namespace {
+
+/// Share of its volume up to which a body on panels counts as dry: rounding of their sums.
+constexpr double least_wet = 1e-12;
+
+/// In the body's frame.
+FlowPast past(const WaterMotion& motion, const Vec3& water_velocity) {
+    const Vec3 velocity = motion.velocity - water_velocity;
+    return {motion.pose.rotation.transpose() * velocity, motion.pose.rotation.transpose() * motion.angular_velocity};
+}
+
+}  // namespace
 
 WaterForces::WaterForces(const WaterDescription& water, double gravity, const Vec3& origin, std::size_t bodies)
     : description_(water), surface_(water, gravity, origin), gravity_(gravity), swimmers_(bodies) {
     for (const WaterSurface::Wave& wave : surface_.waves()) crest_ += wave.amplitude;
+    for (const WaterWave& wave : water.waves) shortest_ = std::min(shortest_, wave.length);
 }
 
 void WaterForces::add(std::size_t body, const CollisionShape& shape, std::shared_ptr<const TriangleMesh> solid,
@@ -25,6 +38,11 @@ void WaterForces::add(std::size_t body, const CollisionShape& shape, std::shared
     swimmer.radius = bounding_radius(shape);
     swimmer.volume = wet(swimmer, {Vec3::UnitY(), 2.0 * swimmer.radius}).volume;
     swimmer.shown = mean_projected_area(shape);
+    swimmer.panels.reset();
+    swimmer.solid_panels.reset();
+    if (!WavePanels::needed(world_bounds(shape, {}).extent().maxCoeff(), shortest_)) return;
+    swimmer.panels.emplace(shape, shortest_);
+    if (swimmer.solid) swimmer.solid_panels.emplace(*swimmer.solid, shortest_);
 }
 
 void WaterForces::reshape(std::size_t body, const CollisionShape& shape) {
@@ -59,60 +77,114 @@ double WaterForces::wave_making(double plane, double volume, double mass) const 
     return std::min(small, 0.5 * std::sqrt(stiffness * mass)) / plane;
 }
 
+WaterForces::Immersion WaterForces::by_plane(const Swimmer& swimmer, const WaterMotion& motion, const WetPart& part,
+                                             const WaterPlane& plane, double time) const {
+    const WaterPlane seen = seen_from(motion.pose, plane);
+    Immersion immersion;
+    immersion.up = seen.normal;
+    immersion.wet = part;
+    const double volume = part.volume;
+    const Mat3& rotation = motion.pose.rotation;
+    const Vec3 arm = rotation * immersion.wet.center(), place = motion.pose.position + arm;
+    if (!surface_.still()) immersion.water_acceleration = surface_.acceleration(place, time);
+    const double displaced = description_.density * volume;
+    immersion.buoyancy.force = displaced * (immersion.water_acceleration + gravity_ * Vec3::UnitY());
+    // At the surface the pressure's gradient is along its normal, which linear waves have to the first order only: the
+    // rest would turn a ball.
+    const bool cut = !surface_.still() && volume < swimmer.volume * (1.0 - 1e-9);
+    immersion.buoyancy.torque =
+        arm.cross(cut ? Vec3(plane.normal.dot(immersion.buoyancy.force) * plane.normal) : immersion.buoyancy.force);
+    immersion.water_velocity = surface_.velocity(place, time);
+    const FlowPast in_body = past(motion, immersion.water_velocity);
+    immersion.drag = swimmer.surface.drag(seen, in_body);
+    immersion.sinks = -seen.normal.dot(immersion.drag.plane * in_body.velocity +
+                                       in_body.angular_velocity.cross(immersion.drag.plane_moment));
+    return immersion;
+}
+
+WaterForces::Immersion WaterForces::by_panels(const Swimmer& swimmer, const WaterMotion& motion, double time) const {
+    const WavesAround around{surface_, description_.current, motion.pose, time};
+    const FlowPast in_body = past(motion, Vec3::Zero());
+    const WaveLoad load = swimmer.panels->load(around, in_body),
+                   pressed = swimmer.solid_panels ? swimmer.solid_panels->load(around, in_body) : load;
+    const Mat3& rotation = motion.pose.rotation;
+    Immersion immersion;
+    immersion.up = rotation.transpose() * Vec3::UnitY();
+    immersion.water_velocity = surface_.velocity(motion.pose.position, time);
+    if (!(pressed.wet.volume > least_wet * swimmer.volume)) return immersion;
+    immersion.wet = pressed.wet;
+    const double weight = description_.density * gravity_;
+    immersion.buoyancy = {rotation * Vec3(weight * pressed.force), rotation * Vec3(weight * pressed.torque)};
+    immersion.water_acceleration = gravity_ * (rotation * Vec3(pressed.force / pressed.wet.volume) - Vec3::UnitY());
+    immersion.water_velocity = rotation * load.flow;
+    immersion.drag = load.drag;
+    immersion.sinks = -immersion.up.dot(load.drag.heave);
+    immersion.grip = load.grip;
+    immersion.turning_grip = load.turning_grip;
+    return immersion;
+}
+
 WaterLoad WaterForces::load(std::size_t body, const WaterBody& matter, const WaterMotion& motion, double time,
                             bool flies, double ahead) const {
     const Swimmer& swimmer = swimmers_[body];
     WaterLoad load;
     if (!reaches(swimmer, motion.pose.position)) return load;
-    const WaterPlane plane = plane_at(motion.pose.position, time), seen = seen_from(motion.pose, plane);
-    const WetPart part = wet(swimmer, seen);
+    const bool panels = swimmer.panels.has_value();
+    Immersion immersion;
+    WaterPlane plane;
+    if (panels) {
+        immersion = by_panels(swimmer, motion, time);
+    } else {
+        plane = plane_at(motion.pose.position, time);
+        immersion.wet = wet(swimmer, seen_from(motion.pose, plane));
+    }
+    const double volume = immersion.wet.volume;
     const bool takes_water = flies && description_.added_mass;
-    const double later = takes_water && ahead > 0.0 ? volume_ahead(swimmer, motion, ahead, time) : 0.0;
-    if (!(part.volume > 0.0) && !(later > 0.0)) return load;
+    // A body on panels that is wet already gets wetter at the rate of its sinking.
+    const bool looks_ahead = takes_water && ahead > 0.0 && !(panels && volume > 0.0);
+    const double later = looks_ahead ? volume_ahead(swimmer, motion, ahead, time) : 0.0;
+    if (!(volume > 0.0) && !(later > 0.0)) return load;
+    if (!panels) immersion = by_plane(swimmer, motion, immersion.wet, plane, time);
     const double density = description_.density;
     const Mat3& rotation = motion.pose.rotation;
-    const Vec3 center = part.center(), arm = rotation * center, place = motion.pose.position + arm;
-    load.displaced = density * part.volume;
-    if (!surface_.still()) load.water_acceleration = surface_.acceleration(place, time);
-    load.buoyancy.force = load.displaced * (load.water_acceleration + gravity_ * Vec3::UnitY());
-    // At the surface the pressure's gradient is along its normal, which linear waves have to the first order only: the
-    // rest would turn a ball.
-    const bool cut = !surface_.still() && part.volume < swimmer.volume * (1.0 - 1e-9);
-    load.buoyancy.torque =
-        arm.cross(cut ? Vec3(plane.normal.dot(load.buoyancy.force) * plane.normal) : load.buoyancy.force);
+    const Vec3 center = immersion.wet.center();
+    load.displaced = density * volume;
+    load.water_acceleration = immersion.water_acceleration;
+    load.buoyancy = immersion.buoyancy;
 
-    const Vec3 flow = surface_.velocity(place, time), past = motion.velocity - flow;
-    const FlowPast in_body{rotation.transpose() * past, rotation.transpose() * motion.angular_velocity};
-    const DragIntegral drag = swimmer.surface.drag(seen, in_body);
+    const FlowPast in_body = past(motion, immersion.water_velocity);
+    const DragIntegral& drag = immersion.drag;
     load.stiffness = density * gravity_ * drag.plane;
     Wrench braked{-0.5 * density * swimmer.drag * drag.force, -0.5 * density * swimmer.drag * drag.torque};
     if (description_.viscosity > 0.0) {
         // A ball of the wet volume (Stokes 1851; Kirchhoff 1876 for the torque).
-        const double cube = part.volume / (4.0 / 3.0 * pi), radius = exponential(logarithm(cube) / 3.0);
+        const double cube = volume / (4.0 / 3.0 * pi), radius = exponential(logarithm(cube) / 3.0);
         const Vec3 force =
             -6.0 * pi * description_.viscosity * radius * (in_body.velocity + in_body.angular_velocity.cross(center));
         braked.force += force;
         braked.torque += center.cross(force) - 8.0 * pi * description_.viscosity * cube * in_body.angular_velocity;
     }
+    double enters = 0.0;  // kg/s
     Vec3 mass = Vec3::Constant(matter.mass);
     Mat3 inverse_inertia = matter.inverse_inertia;
     if (takes_water) {
         load.added = {load.displaced * swimmer.added.linear, load.displaced * swimmer.added.angular};
-        const double sinks =
-            -seen.normal.dot(drag.plane * in_body.velocity + in_body.angular_velocity.cross(drag.plane_moment));
-        const double enters = density * (ahead > 0.0 ? (later - part.volume) / ahead : sinks);
+        enters = density * (looks_ahead ? (later - volume) / ahead : immersion.sinks);
+        if (panels && ahead > 0.0) enters = std::min(enters, density * (swimmer.volume - volume) / ahead);
         if (enters > 0.0) {
             braked.force -= enters * swimmer.added.linear.cwiseProduct(in_body.velocity);
             braked.torque -= enters * swimmer.added.angular.cwiseProduct(in_body.angular_velocity);
         }
         mass += load.added.linear;
-        const double waves = wave_making(drag.plane, part.volume, seen.normal.dot(seen.normal.cwiseProduct(mass)));
+        const double waves = wave_making(drag.plane, volume, immersion.up.dot(immersion.up.cwiseProduct(mass)));
         braked.force -= waves * drag.heave;
         braked.torque -= waves * drag.roll;
         inverse_inertia = Mat3(matter.inertia + Mat3(load.added.angular.asDiagonal())).inverse();
     }
     const double power = -(braked.force.dot(in_body.velocity) + braked.torque.dot(in_body.angular_velocity));
-    if (power > 0.0)
+    if (panels)
+        load.drag_rate = panel_rate(immersion, swimmer, enters, mass, inverse_inertia);
+    else if (power > 0.0)
         load.drag_rate =
             (braked.force.dot(braked.force.cwiseQuotient(mass)) + braked.torque.dot(inverse_inertia * braked.torque)) /
             power;
@@ -120,8 +192,28 @@ WaterLoad WaterForces::load(std::size_t body, const WaterBody& matter, const Wat
     return load;
 }
 
+// The water moves past each panel at a speed of its own: forces that cancel brake a body all the same.
+double WaterForces::panel_rate(const Immersion& immersion, const Swimmer& swimmer, double enters, const Vec3& mass,
+                               const Mat3& inverse_inertia) const {
+    const double form = 0.5 * description_.density * swimmer.drag, lightest = mass.minCoeff();
+    double rate = form * (immersion.grip / lightest + inverse_inertia.cwiseProduct(immersion.turning_grip).sum());
+    if (enters > 0.0)
+        rate += enters * std::max(swimmer.added.linear.cwiseQuotient(mass).maxCoeff(),
+                                  swimmer.added.angular.cwiseProduct(inverse_inertia.diagonal()).maxCoeff());
+    if (description_.viscosity > 0.0) {
+        const double cube = immersion.wet.volume / (4.0 / 3.0 * pi), radius = exponential(logarithm(cube) / 3.0);
+        rate += pi * description_.viscosity *
+                (6.0 * radius / lightest + 8.0 * cube * inverse_inertia.diagonal().maxCoeff());
+    }
+    return rate;
+}
+
 double WaterForces::volume_ahead(const Swimmer& swimmer, const WaterMotion& motion, double ahead, double time) const {
     const Pose there{motion.pose.position + ahead * motion.velocity, motion.pose.rotation};
+    if (swimmer.panels) {
+        const WavePanels& panels = swimmer.solid_panels ? *swimmer.solid_panels : *swimmer.panels;
+        return panels.load({surface_, description_.current, there, time + ahead}, {}).wet.volume;
+    }
     return wet(swimmer, seen_from(there, plane_at(there.position, time + ahead))).volume;
 }
 
@@ -155,7 +247,9 @@ double WaterForces::potential(std::size_t body, const Pose& pose) const {
 
 bool WaterForces::wets(std::size_t body, const Pose& pose, double time) const {
     const Swimmer& swimmer = swimmers_[body];
-    return reaches(swimmer, pose.position) && wet(swimmer, seen_from(pose, plane_at(pose.position, time))).volume > 0.0;
+    if (!reaches(swimmer, pose.position)) return false;
+    if (swimmer.panels) return world_bounds(swimmer.shape, pose).min.y() < surface_.level() + crest_;
+    return wet(swimmer, seen_from(pose, plane_at(pose.position, time))).volume > 0.0;
 }
 
 double WaterForces::wave_rate() const {

@@ -1,7 +1,8 @@
 // Forces of water on bodies: buoyancy and its potential, drag, and the water that moves with a body.
 //
-// The surface is taken as the plane that touches it above or below the body's center. Buoyancy is rho V (g + a) at the
-// center of the wet volume V, with a the acceleration of the water there: the pressure of waves decays with the depth.
+// Short bodies: the surface is taken as the plane that touches it above or below the body's center. Buoyancy is
+// rho V (g + a) at the center of the wet volume V, with a the acceleration of the water there: the pressure of waves
+// decays with the depth. Bodies that are long beside a wave: panels (wave_panels.h).
 //
 // A body that moves freely has the added mass A of its displaced water: (M + A) dv/dt = F + A du/dt, about the body's
 // axes, with u the velocity of the water. A body that enters the water shares its momentum with the water that it takes
@@ -12,9 +13,11 @@
 #include "sim/math/wrench.h"
 #include "sim/water/added_mass.h"
 #include "sim/water/drag_surface.h"
+#include "sim/water/wave_panels.h"
 #include "sim/water/wet_volume.h"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace tumble {
@@ -64,7 +67,7 @@ public:
     double potential(std::size_t body, const Pose& pose) const;
     /// Number of parts of the next `span` s in each of which a body that enters the water gets wet in part only.
     double parts_of_entry(std::size_t body, const WaterMotion& motion, double span, double time) const;
-    /// True if a part of the body is in water.
+    /// True if a part of the body is in water; of a body on panels, if the highest crest could reach one.
     bool wets(std::size_t body, const Pose& pose, double time) const;
     /// True if the water can carry a body at rest.
     bool rests() const { return still() && description_.current.isZero(0.0); }
@@ -77,11 +80,30 @@ private:
         std::shared_ptr<const TriangleMesh> solid;
         DragSurface surface;
         AddedMass added;
+        std::optional<WavePanels> panels, solid_panels;  // of a body that is long beside a wave
         double drag = 0.0, radius = 0.0;
         double volume = 0.0, shown = 0.0;  // m^3, m^2 in the mean
         bool present = false;
     };
 
+    /// The water that touches a body, in the body's frame without another word.
+    struct Immersion {
+        WetPart wet;
+        Vec3 up = Vec3::UnitY();                                                // unit, normal of the surface
+        Wrench buoyancy;                                                        // world frame
+        Vec3 water_acceleration = Vec3::Zero(), water_velocity = Vec3::Zero();  // world frame, mean
+        DragIntegral drag;
+        double sinks = 0.0;  // m^3/s, at which the wet volume grows
+        double grip = 0.0;   // of panels, see WaveLoad
+        Mat3 turning_grip = Mat3::Zero();
+    };
+
+    Immersion by_plane(const Swimmer& swimmer, const WaterMotion& motion, const WetPart& part, const WaterPlane& plane,
+                       double time) const;
+    Immersion by_panels(const Swimmer& swimmer, const WaterMotion& motion, double time) const;
+    /// 1/s, of the drag and of the water that a body takes along, `enters` kg/s.
+    double panel_rate(const Immersion& immersion, const Swimmer& swimmer, double enters, const Vec3& mass,
+                      const Mat3& inverse_inertia) const;
     WaterPlane plane_at(const Vec3& place, double time) const;
     double wave_making(double plane, double volume, double mass) const;
     WetPart wet(const Swimmer& swimmer, const WaterPlane& seen) const;
@@ -92,6 +114,7 @@ private:
     WaterDescription description_;
     WaterSurface surface_;
     double gravity_, crest_ = 0.0;  // m/s^2; m, highest crest over the level
+    double shortest_ = infinity;    // m, wave
     std::vector<Swimmer> swimmers_;
 };
 

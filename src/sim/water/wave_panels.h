@@ -1,0 +1,56 @@
+// The load of waves on a body that is long beside them: the pressure of the undisturbed waves over its wet surface
+// (Froude 1861, Krylov 1898), and the drag of the water that moves past each part of it.
+//
+// The pressure is rho g (eta - y + sum a (e^(k (y - eta)) - 1) cos phase), with eta the height of the surface: that of
+// Airy's waves with the depth taken from the surface (Wheeler 1970), so that it vanishes there. Panels are divided
+// until they are shorter than the waves, which are taken at their nodes. A panel that crosses the surface is clipped by
+// the heights of its nodes over it. The face in the surface has no pressure: volumes and the cut by the surface follow
+// from the wet panels by the divergence theorem.
+#pragma once
+
+#include "scene/description/water.h"
+#include "sim/water/drag_surface.h"
+#include "sim/water/panels.h"
+
+namespace tumble {
+
+/// World frame.
+struct WavesAround {
+    const WaterSurface& surface;
+    const Vec3& current;  // m/s
+    Pose pose;            // of the body
+    double time;          // s
+};
+
+/// In the body's frame, about its origin.
+struct WaveLoad {
+    WetPart wet;
+    Vec3 force = Vec3::Zero(), torque = Vec3::Zero();  // m^3 and m^4, of the pressure over rho g
+    DragIntegral drag;  // `heave` and `roll` relative to the water at the surface; no `plane_moment`
+    /// m^3/s and m^5/s, of |dF/dv| of `drag.force` and of |dT/dw| of `drag.torque`, at least.
+    double grip = 0.0;
+    Mat3 turning_grip = Mat3::Zero();
+    double wet_area = 0.0;     // m^2
+    Vec3 flow = Vec3::Zero();  // m/s, mean of the water at the wet surface
+};
+
+class WavePanels {
+public:
+    /// A body with this longest extent (m) is long beside waves of this length (m).
+    static bool needed(double extent, double wave) { return 10.0 * extent > wave; }
+
+    /// `wave`: m, the shortest.
+    WavePanels(const CollisionShape& shape, double wave);
+    WavePanels(const TriangleMesh& solid, double wave);
+
+    /// `motion`: velocities in the body's frame.
+    WaveLoad load(const WavesAround& around, const FlowPast& motion) const;
+
+private:
+    void add(HullPart part, double wave);
+
+    std::vector<Panels> parts_;
+    double shown_ = 0.0;  // m, shortest wave that the panels show
+};
+
+}  // namespace tumble
