@@ -8,16 +8,16 @@
 namespace tumble {
 namespace {
 
-using Triangle = std::array<std::uint32_t, 3>;
+using Indices = std::array<std::uint32_t, 3>;
 
 class Division {
 public:
     Division(std::vector<Vec3>& points, double edge) : points_(points), edge_(edge) {}
 
     /// True if a triangle was divided.
-    bool halve(std::vector<Triangle>& triangles) {
-        std::vector<Triangle> next;
-        for (const Triangle& t : triangles) divide(t, next);
+    bool halve(std::vector<Indices>& triangles) {
+        std::vector<Indices> next;
+        for (const Indices& t : triangles) divide(t, next);
         const bool more = next.size() > triangles.size();
         triangles = std::move(next);
         return more;
@@ -33,15 +33,15 @@ private:
     bool is_long(std::uint32_t a, std::uint32_t b) const { return (points_[a] - points_[b]).norm() > edge_; }
 
     // An edge is halved by its own length alone, on both of its sides.
-    void divide(const Triangle& t, std::vector<Triangle>& next) {
+    void divide(const Indices& t, std::vector<Indices>& next) {
         std::array<bool, 3> cut;
         for (std::size_t k = 0; k < 3; ++k) cut[k] = is_long(t[k], t[(k + 1) % 3]);
         const auto cuts = std::count(cut.begin(), cut.end(), true);
         if (cuts == 0) return next.push_back(t);
         if (cuts == 3) {
             const std::uint32_t ab = middle(t[0], t[1]), bc = middle(t[1], t[2]), ca = middle(t[2], t[0]);
-            for (const Triangle& part :
-                 {Triangle{t[0], ab, ca}, Triangle{ab, t[1], bc}, Triangle{ca, bc, t[2]}, Triangle{ab, bc, ca}})
+            for (const Indices& part :
+                 {Indices{t[0], ab, ca}, Indices{ab, t[1], bc}, Indices{ca, bc, t[2]}, Indices{ab, bc, ca}})
                 next.push_back(part);
             return;
         }
@@ -65,7 +65,7 @@ private:
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles_;
 };
 
-Vec3 area_of(const std::vector<Vec3>& points, const Triangle& t) {
+Vec3 area_of(const std::vector<Vec3>& points, const Indices& t) {
     return 0.5 * (points[t[1]] - points[t[0]]).cross(points[t[2]] - points[t[0]]);
 }
 
@@ -73,12 +73,12 @@ Vec3 area_of(const std::vector<Vec3>& points, const Triangle& t) {
 
 Panels divided(HullPart part, double edge, std::size_t most) {
     Panels made;
-    std::vector<Triangle> triangles = std::exchange(part.triangles, {});
+    std::vector<Indices> triangles = std::exchange(part.triangles, {});
     made.nodes = std::exchange(part.vertices, {});
     made.part = std::move(part);
     // Halved edges are between half of the limit and all of it: panels have at least an eighth of its square.
     double area = 0.0;
-    for (const Triangle& t : triangles) area += area_of(made.nodes, t).norm();
+    for (const Indices& t : triangles) area += area_of(made.nodes, t).norm();
     if (triangles.size() < most)
         edge = std::max(edge, std::sqrt(8.0 * area / double(most - triangles.size())));
     else
@@ -86,7 +86,7 @@ Panels divided(HullPart part, double edge, std::size_t most) {
     Division division(made.nodes, edge);
     while (division.halve(triangles)) {
     }
-    for (const Triangle& t : triangles) {
+    for (const Indices& t : triangles) {
         const Vec3 normal = area_of(made.nodes, t);
         if (!(normal.squaredNorm() > 0.0)) continue;
         HullPanel panel{{t[0], t[1], t[2], 0, 0, 0}, normal};

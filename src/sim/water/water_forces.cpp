@@ -23,7 +23,6 @@ FlowPast past(const WaterMotion& motion, const Vec3& water_velocity) {
 WaterForces::WaterForces(const WaterDescription& water, double gravity, const Vec3& origin, std::size_t bodies)
     : description_(water), surface_(water, gravity, origin), gravity_(gravity), swimmers_(bodies) {
     for (const WaterSurface::Wave& wave : surface_.waves()) crest_ += wave.amplitude;
-    for (const WaterWave& wave : water.waves) shortest_ = std::min(shortest_, wave.length);
 }
 
 void WaterForces::add(std::size_t body, const CollisionShape& shape, std::shared_ptr<const TriangleMesh> solid,
@@ -40,9 +39,10 @@ void WaterForces::add(std::size_t body, const CollisionShape& shape, std::shared
     swimmer.shown = mean_projected_area(shape);
     swimmer.panels.reset();
     swimmer.solid_panels.reset();
-    if (!WavePanels::needed(world_bounds(shape, {}).extent().maxCoeff(), shortest_)) return;
-    swimmer.panels.emplace(shape, shortest_);
-    if (swimmer.solid) swimmer.solid_panels.emplace(*swimmer.solid, shortest_);
+    const double length = world_bounds(shape, {}).extent().maxCoeff();
+    if (!WavePanels::needed(length, description_)) return;
+    swimmer.panels.emplace(shape, description_, length);
+    if (swimmer.solid) swimmer.solid_panels.emplace(*swimmer.solid, description_, length);
 }
 
 void WaterForces::reshape(std::size_t body, const CollisionShape& shape) {

@@ -114,7 +114,6 @@ private:
     WaterDescription description_;
     WaterSurface surface_;
     double gravity_, crest_ = 0.0;  // m/s^2; m, highest crest over the level
-    double shortest_ = infinity;    // m, wave
     std::vector<Swimmer> swimmers_;
 };
 

@@ -16,6 +16,17 @@ constexpr Facets panel_facets{8, 3, true};
 constexpr double panels_per_wave = 2.5, fewest_per_wave = 2.0;
 constexpr std::size_t most_panels = 16384;  // of a part
 
+/// Lengths of a body in a wave: beside a longer wave the body is short; of a shorter wave it feels nothing, crests and
+/// troughs cancel.
+constexpr double lengths_in_long_wave = 10.0, shortest_wave = 1.0 / 16.0;
+
+double shortest_felt(const WaterDescription& water, double length) {
+    double shortest = infinity;
+    for (const WaterWave& wave : water.waves)
+        if (wave.length >= shortest_wave * length) shortest = std::min(shortest, wave.length);
+    return shortest < infinity ? shortest : length;
+}
+
 /// Share of the wet area up to which a cut by the surface counts as none: rounding of a part that is wholly under.
 constexpr double least_cut = 1e-6;
 
@@ -270,15 +281,23 @@ struct SampledPanel {
 
 }  // namespace
 
-WavePanels::WavePanels(const CollisionShape& shape, double wave) {
+bool WavePanels::needed(double length, const WaterDescription& water) {
+    return std::any_of(water.waves.begin(), water.waves.end(),
+                       [&](const WaterWave& wave) { return lengths_in_long_wave * length > wave.length; });
+}
+
+WavePanels::WavePanels(const CollisionShape& shape, const WaterDescription& water, double length) {
+    const double wave = shortest_felt(water, length);
+    shown_ = shortest_wave * length;
     for (HullPart& part : hull_parts(shape, panel_facets)) add(std::move(part), wave);
 }
 
-WavePanels::WavePanels(const TriangleMesh& solid, double wave) {
+WavePanels::WavePanels(const TriangleMesh& solid, const WaterDescription& water, double length) {
+    shown_ = shortest_wave * length;
     HullPart part;
     part.vertices = solid.vertices;
     part.triangles = solid.triangles;
-    add(std::move(part), wave);
+    add(std::move(part), shortest_felt(water, length));
 }
 
 void WavePanels::add(HullPart part, double wave) {

@@ -36,12 +36,11 @@ struct WaveLoad {
 
 class WavePanels {
 public:
-    /// A body with this longest extent (m) is long beside waves of this length (m).
-    static bool needed(double extent, double wave) { return 10.0 * extent > wave; }
+    /// True if a body with this longest extent (m) is long beside a wave.
+    static bool needed(double length, const WaterDescription& water);
 
-    /// `wave`: m, the shortest.
-    WavePanels(const CollisionShape& shape, double wave);
-    WavePanels(const TriangleMesh& solid, double wave);
+    WavePanels(const CollisionShape& shape, const WaterDescription& water, double length);
+    WavePanels(const TriangleMesh& solid, const WaterDescription& water, double length);
 
     /// `motion`: velocities in the body's frame.
     WaveLoad load(const WavesAround& around, const FlowPast& motion) const;

@@ -26,6 +26,12 @@ WaterSurface waves_of(double height, double length, const Vec3& direction = Vec3
     return {water, g};
 }
 
+WavePanels panels_of(const CollisionShape& shape, double wave) {
+    WaterDescription water;
+    water.waves.push_back({1.0, wave});
+    return {shape, water, world_bounds(shape, {}).extent().maxCoeff()};
+}
+
 const Vec3 no_current = Vec3::Zero();
 
 WaveLoad load_at(const WavePanels& panels, const WaterSurface& surface, const Pose& pose, double time,
@@ -72,7 +78,7 @@ TEST(WavePanels, ABoxOfHalfAWaveAWholeOneAndTwoHasTheIntegralOfThePressure) {
     double worst = 0.0;
     for (const double length : {0.5 * wave, wave, 2.0 * wave})
         for (const double middle : {0.0, 0.4, 1.0, 1.7, 2.9}) {
-            const WavePanels panels(collider_of(BoxShape{{length, tall, breadth}}), wave);
+            const WavePanels panels = panels_of(collider_of(BoxShape{{length, tall, breadth}}), wave);
             Pose pose;
             pose.position = {middle, 0.5 * tall - draft, 0.3};
             const WaveLoad load = load_at(panels, surface, pose, 0.0);
@@ -94,7 +100,7 @@ TEST(WavePanels, LowWavesPushByTheirClosedForm) {
     const double wave = 4.0, amplitude = 1e-6, breadth = 0.8, draft = 0.3, number = 2.0 * pi / wave;
     const WaterSurface surface = waves_of(2.0 * amplitude, wave);
     for (const double length : {0.5 * wave, wave, 2.0 * wave}) {
-        const WavePanels panels(collider_of(BoxShape{{length, 0.6, breadth}}), wave);
+        const WavePanels panels = panels_of(collider_of(BoxShape{{length, 0.6, breadth}}), wave);
         Pose pose;
         // The middle on a crest, and between it and the trough.
         for (const double middle : {0.0, 1.0}) {
@@ -109,7 +115,7 @@ TEST(WavePanels, LowWavesPushByTheirClosedForm) {
 
 TEST(WavePanels, ATurnedBodyTakesTheForceOfTheTurnedWave) {
     const CollisionShape box = collider_of(BoxShape{{3.0, 0.4, 1.0}});
-    const WavePanels panels(box, 2.0);
+    const WavePanels panels = panels_of(box, 2.0);
     Pose level, turned;
     turned.rotation = turn({0.0, 1.0, 0.0}, 0.7).toRotationMatrix();
     const WaveLoad first = load_at(panels, waves_of(0.1, 2.0), level, 0.4),
@@ -120,7 +126,7 @@ TEST(WavePanels, ATurnedBodyTakesTheForceOfTheTurnedWave) {
 
 TEST(WavePanels, OnACrestNothingTurnsASymmetricBody) {
     for (const Shape& shape : {Shape(BoxShape{{3.0, 0.4, 1.0}}), Shape(SphereShape{0.6}), Shape(capsule(0.3, 1.0))}) {
-        const WavePanels panels(collider_of(shape), 2.0);
+        const WavePanels panels = panels_of(collider_of(shape), 2.0);
         for (const double crest : {0.0, 1.0}) {  // and in a trough
             Pose pose;
             pose.position.x() = crest;
@@ -141,7 +147,7 @@ TEST(WavePanels, OnFlatWaterAreTheExactWetParts) {
                                            {cone(0.5, 1.0, 0.1), 6e-3},
                                            {ellipsoid({0.5, 0.8, 0.4}), 6e-3}}) {
         const CollisionShape collider = collider_of(shape);
-        const WavePanels panels(collider, 2.0);
+        const WavePanels panels = panels_of(collider, 2.0);
         const double whole = wet_part(collider, {Vec3::UnitY(), 10.0}).volume;
         for (const double height : {-2.0, -0.2, 0.0, 0.1, 0.25})
             for (const double angle : {0.0, 0.5, 1.4}) {
@@ -162,7 +168,7 @@ TEST(WavePanels, OnFlatWaterAreTheExactWetParts) {
 
 TEST(WavePanels, ForcesAreContinuousWhileABodyEnters) {
     const WaterSurface surface = waves_of(0.2, 1.5, Vec3(0.8, 0.0, 0.6));
-    const WavePanels panels(collider_of(BoxShape{{1.5, 0.3, 0.9}}), 1.5);
+    const WavePanels panels = panels_of(collider_of(BoxShape{{1.5, 0.3, 0.9}}), 1.5);
     Pose pose;
     pose.rotation = turn({0.3, 0.2, 1.0}, 0.2).toRotationMatrix();
     WaveLoad last;
@@ -178,11 +184,22 @@ TEST(WavePanels, ForcesAreContinuousWhileABodyEnters) {
     EXPECT_NEAR(last.wet.volume, 1.5 * 0.3 * 0.9, 1e-3);
 }
 
+TEST(WavePanels, WavesFarShorterThanABodyDoNotPushIt) {
+    const CollisionShape raft = collider_of(BoxShape{{20.0, 0.4, 3.0}});
+    const WavePanels panels = panels_of(raft, 1.2);
+    Pose pose;
+    const WaveLoad flat = load_at(panels, waves_of(1e-12, 1.2), pose, 0.0),
+                   load = load_at(panels, waves_of(0.1, 1.2), pose, 0.0),
+                   felt = load_at(panels_of(raft, 1.3), waves_of(0.1, 1.3), pose, 0.0);
+    EXPECT_LT((load.force - flat.force).norm(), 1e-9);
+    EXPECT_GT((felt.force - flat.force).norm(), 1e-3);
+}
+
 TEST(WavePanels, ACurrentBrakesAsOnASurfaceOfDrag) {
     const WaterSurface flat = waves_of(1e-12, 2.0);
     for (const Shape& shape : {Shape(BoxShape{{3.0, 0.4, 1.0}}), Shape(SphereShape{0.6}), Shape(cylinder(0.4, 1.0))}) {
         const CollisionShape collider = collider_of(shape);
-        const WavePanels panels(collider, 2.0);
+        const WavePanels panels = panels_of(collider, 2.0);
         const DragSurface surface(collider);
         const FlowPast motion{{0.7, -0.4, 0.2}, {0.1, 0.3, -0.2}};
         for (const double height : {0.0, -3.0}) {  // and wholly under
