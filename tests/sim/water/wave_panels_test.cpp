@@ -184,6 +184,25 @@ TEST(WavePanels, ForcesAreContinuousWhileABodyEnters) {
     EXPECT_NEAR(last.wet.volume, 1.5 * 0.3 * 0.9, 1e-3);
 }
 
+TEST(WavePanels, AClosedMeshIsTheSolidThatItEncloses) {
+    const CollisionShape shape = collider_of(BoxShape{{3.0, 0.4, 1.0}});
+    const Polyhedron& box = *std::get<std::shared_ptr<const Polyhedron>>(shape);
+    TriangleMesh mesh{box.vertices, {}};
+    for (const Polyhedron::Face& face : box.faces)
+        for (std::size_t k = 2; k < face.vertices.size(); ++k)
+            mesh.triangles.push_back({face.vertices[0], face.vertices[k - 1], face.vertices[k]});
+    WaterDescription water;
+    water.waves.push_back({0.1, 2.0});
+    Pose pose;
+    pose.rotation = turn({1.0, 0.3, 0.5}, 0.2).toRotationMatrix();
+    const WaveLoad solid = load_at(WavePanels(mesh, water, 3.0), waves_of(0.1, 2.0), pose, 0.3),
+                   hull = load_at(panels_of(shape, 2.0), waves_of(0.1, 2.0), pose, 0.3);
+    EXPECT_GT(hull.wet.volume, 0.3);
+    EXPECT_EQ(solid.wet.volume, hull.wet.volume);
+    EXPECT_EQ(solid.force, hull.force);
+    EXPECT_EQ(solid.torque, hull.torque);
+}
+
 TEST(WavePanels, WavesFarShorterThanABodyDoNotPushIt) {
     const CollisionShape raft = collider_of(BoxShape{{20.0, 0.4, 3.0}});
     const WavePanels panels = panels_of(raft, 1.2);
