@@ -37,6 +37,7 @@ void WaterForces::add(std::size_t body, const CollisionShape& shape, std::shared
     swimmer.radius = bounding_radius(shape);
     swimmer.volume = wet(swimmer, {Vec3::UnitY(), 2.0 * swimmer.radius}).volume;
     swimmer.shown = mean_projected_area(shape);
+    swimmer.wet.reset();
     swimmer.panels.reset();
     swimmer.solid_panels.reset();
     const double length = world_bounds(shape, {}).extent().maxCoeff();
@@ -102,11 +103,20 @@ WaterForces::Immersion WaterForces::by_plane(const Swimmer& swimmer, const Water
     return immersion;
 }
 
+const WaterForces::Swimmer::Wet& WaterForces::wet_at(const Swimmer& swimmer, const Pose& pose, double time) const {
+    std::optional<Swimmer::Wet>& last = swimmer.wet;
+    if (last && last->time == time && last->pose.position == pose.position && last->pose.rotation == pose.rotation)
+        return *last;
+    const WavesAround around{surface_, description_.current, pose, time};
+    last = {pose, time, swimmer.panels->wet(around), std::nullopt};
+    if (swimmer.solid_panels) last->solid = swimmer.solid_panels->wet(around);
+    return *last;
+}
+
 WaterForces::Immersion WaterForces::by_panels(const Swimmer& swimmer, const WaterMotion& motion, double time) const {
-    const WavesAround around{surface_, description_.current, motion.pose, time};
     const FlowPast in_body = past(motion, Vec3::Zero());
-    const WaveLoad load = swimmer.panels->load(around, in_body),
-                   pressed = swimmer.solid_panels ? swimmer.solid_panels->load(around, in_body) : load;
+    const Swimmer::Wet& wet = wet_at(swimmer, motion.pose, time);
+    const WaveLoad load = wet.hull.load(in_body), pressed = wet.solid ? wet.solid->load(in_body) : load;
     const Mat3& rotation = motion.pose.rotation;
     Immersion immersion;
     immersion.up = rotation.transpose() * Vec3::UnitY();
@@ -212,7 +222,7 @@ double WaterForces::volume_ahead(const Swimmer& swimmer, const WaterMotion& moti
     const Pose there{motion.pose.position + ahead * motion.velocity, motion.pose.rotation};
     if (swimmer.panels) {
         const WavePanels& panels = swimmer.solid_panels ? *swimmer.solid_panels : *swimmer.panels;
-        return panels.load({surface_, description_.current, there, time + ahead}, {}).wet.volume;
+        return panels.wet({surface_, description_.current, there, time + ahead}).load({}).wet.volume;
     }
     return wet(swimmer, seen_from(there, plane_at(there.position, time + ahead))).volume;
 }

@@ -84,6 +84,15 @@ private:
         double drag = 0.0, radius = 0.0;
         double volume = 0.0, shown = 0.0;  // m^3, m^2 in the mean
         bool present = false;
+
+        struct Wet {
+            Pose pose;
+            double time;  // s
+            WetHull hull;
+            std::optional<WetHull> solid;
+        };
+        /// Of the panels, the last one: flights ask for several motions at one pose. No two threads ask for one body.
+        mutable std::optional<Wet> wet = std::nullopt;
     };
 
     /// The water that touches a body, in the body's frame without another word.
@@ -100,6 +109,7 @@ private:
 
     Immersion by_plane(const Swimmer& swimmer, const WaterMotion& motion, const WetPart& part, const WaterPlane& plane,
                        double time) const;
+    const Swimmer::Wet& wet_at(const Swimmer& swimmer, const Pose& pose, double time) const;
     Immersion by_panels(const Swimmer& swimmer, const WaterMotion& motion, double time) const;
     /// 1/s, of the drag and of the water that a body takes along, `enters` kg/s.
     double panel_rate(const Immersion& immersion, const Swimmer& swimmer, double enters, const Vec3& mass,

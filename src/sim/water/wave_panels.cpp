@@ -139,14 +139,8 @@ private:
 class PartSums {
 public:
     /// `height`: m, of the origin over the level.
-    PartSums(const HullPart& part, const FlowPast& motion, const Vec3& up, double height)
-        : part_(part),
-          motion_(motion),
-          up_(up),
-          turn_(up.cross(motion.angular_velocity)),
-          sinks_(up.dot(motion.velocity)),
-          share_(drag_share(part)),
-          height_(height) {}
+    PartSums(const HullPart& part, const Vec3& up, double height)
+        : made_{&part, {}, {}, {}}, up_(up), height_(height) {}
 
     /// `middle`: samples at the middles of the edges from corner 0 to 1, 1 to 2, 2 to 0.
     void add(const std::array<Vec3, 3>& corner, const std::array<Sample, 3>& at, const std::array<Sample, 3>& middle,
@@ -173,43 +167,76 @@ public:
         cut_moment_ -= upward * center;
         sum_.wet_area += size;
         sum_.flow += size * flow;
+        WetPiece& piece = made_.pieces.emplace_back();
+        piece.area = area;
+        piece.flow = flow;
         for (std::size_t k = 0; k < 3; ++k) {
-            const Vec3 place = 0.5 * (corner[k] + corner[(k + 1) % 3]);
-            const double lifts = sinks_ + turn_.dot(place) - middle[k][Of::rise];
-            sum_.drag.heave -= upward / 3.0 * lifts * up_;
-            sum_.drag.roll -= upward / 3.0 * lifts * place.cross(up_);
-            brake(place, area, 1.0 / 6.0, flow);
+            piece.places[k] = 0.5 * (corner[k] + corner[(k + 1) % 3]);
+            piece.rises[k] = middle[k][Of::rise];
         }
     }
 
-    WaveLoad done() {
-        if (!(sum_.wet_area > 0.0)) return {};
+    WetHull::Part done() {
+        if (!(sum_.wet_area > 0.0)) return made_;
+        const HullPart& part = *made_.hull;
         sum_.wet = {volume_, moment_ + (squares_ - up_.dot(moment_)) * up_};
         const double cut = up_.dot(cut_);
         if (cut > least_cut * sum_.wet_area) {
             sum_.drag.plane = cut;
             // The water's surface closes the wet part: at its level.
             const Vec3 place = cut_moment_ / cut;
-            brake(place - (up_.dot(place) + height_) * up_, cut_, 0.5, sum_.flow / sum_.wet_area);
+            made_.closing = {cut_, sum_.flow / sum_.wet_area, {place - (up_.dot(place) + height_) * up_}, {}};
         }
-        sum_.drag.force *= part_.scale;
-        sum_.drag.torque *= part_.scale;
-        sum_.grip *= part_.scale;
-        sum_.turning_grip *= part_.scale;
         // Pressure turns no ball about its center, and no surface of revolution about its axis: its triangles would.
-        if (part_.ball > 0.0)
-            sum_.torque = part_.center.cross(sum_.force);
+        if (part.ball > 0.0)
+            sum_.torque = part.center.cross(sum_.force);
         else
-            sum_.torque -= part_.axis.dot(sum_.torque - part_.center.cross(sum_.force)) * part_.axis;
-        return sum_;
+            sum_.torque -= part.axis.dot(sum_.torque - part.center.cross(sum_.force)) * part.axis;
+        made_.still = sum_;
+        return std::move(made_);
     }
 
 private:
+    WetHull::Part made_;
+    Vec3 up_;
+    double height_;
+    WaveLoad sum_;
+    double volume_ = 0.0, squares_ = 0.0;
+    Vec3 moment_ = Vec3::Zero(), cut_ = Vec3::Zero(), cut_moment_ = Vec3::Zero();
+};
+
+/// The drag of a wet part, for a motion.
+class PartDrag {
+public:
+    PartDrag(const WetHull::Part& part, const FlowPast& motion, const Vec3& up)
+        : part_(part), motion_(motion), sum_(part.still) {
+        const Vec3 turn = up.cross(motion.angular_velocity);
+        const double sinks = up.dot(motion.velocity);
+        for (const WetPiece& piece : part.pieces) {
+            const double upward = up.dot(piece.area);
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Vec3& place = piece.places[k];
+                const double lifts = sinks + turn.dot(place) - piece.rises[k];
+                sum_.drag.heave -= upward / 3.0 * lifts * up;
+                sum_.drag.roll -= upward / 3.0 * lifts * place.cross(up);
+                brake(place, piece.area, 1.0 / 6.0, piece.flow);
+            }
+        }
+        if (part.closing) brake(part.closing->places[0], part.closing->area, 0.5, part.closing->flow);
+        sum_.drag.force *= part.hull->scale;
+        sum_.drag.torque *= part.hull->scale;
+        sum_.grip *= part.hull->scale;
+        sum_.turning_grip *= part.hull->scale;
+    }
+    const WaveLoad& load() const { return sum_; }
+
+private:
     void brake(const Vec3& place, const Vec3& area, double weight, const Vec3& flow) {
-        const Vec3& at = part_.ball > 0.0 ? part_.center : place;
+        const HullPart& hull = *part_.hull;
+        const Vec3& at = hull.ball > 0.0 ? hull.center : place;
         const Vec3 w = motion_.velocity + motion_.angular_velocity.cross(at) - flow;
-        const Vec3 past = w - motion_.angular_velocity.dot(part_.axis) * part_.axis.cross(at - part_.center);
-        const Vec3 f = element_drag(weight, area, share_, w, past);
+        const Vec3 past = w - motion_.angular_velocity.dot(hull.axis) * hull.axis.cross(at - hull.center);
+        const Vec3 f = element_drag(weight, area, drag_share(hull), w, past);
         sum_.drag.force += f;
         sum_.drag.torque += at.cross(f);
         // Twice the force over the speed: it grows with the square.
@@ -218,13 +245,9 @@ private:
         sum_.turning_grip += grip * (at.squaredNorm() * Mat3::Identity() - at * at.transpose());
     }
 
-    const HullPart& part_;
+    const WetHull::Part& part_;
     const FlowPast& motion_;
-    Vec3 up_, turn_;
-    double sinks_, share_, height_;
     WaveLoad sum_;
-    double volume_ = 0.0, squares_ = 0.0;
-    Vec3 moment_ = Vec3::Zero(), cut_ = Vec3::Zero(), cut_moment_ = Vec3::Zero();
 };
 
 /// A panel with the samples of its nodes, of which pieces are taken by shares of its corners.
@@ -305,12 +328,12 @@ void WavePanels::add(HullPart part, double wave) {
     shown_ = std::max(shown_, fewest_per_wave * parts_.back().longest);
 }
 
-WaveLoad WavePanels::load(const WavesAround& around, const FlowPast& motion) const {
+WetHull WavePanels::wet(const WavesAround& around) const {
     WaveField field(around, shown_);
-    WaveLoad sum;
+    WetHull hull{field.up(), {}};
     for (const Panels& part : parts_) {
         field.reset(part.nodes.size());
-        PartSums sums(part.part, motion, field.up(), field.height());
+        PartSums sums(part.part, field.up(), field.height());
         for (const HullPanel& panel : part.panels) {
             SampledPanel sampled;
             bool dry = true;
@@ -331,7 +354,16 @@ WaveLoad WavePanels::load(const WavesAround& around, const FlowPast& motion) con
             }
             sampled.add_to(sums);
         }
-        const WaveLoad one = sums.done();
+        hull.parts.push_back(sums.done());
+    }
+    return hull;
+}
+
+WaveLoad WetHull::load(const FlowPast& motion) const {
+    WaveLoad sum;
+    for (const Part& part : parts) {
+        const PartDrag drag(part, motion, up);
+        const WaveLoad& one = drag.load();
         sum.wet.volume += one.wet.volume;
         sum.wet.moment += one.wet.moment;
         sum.force += one.force;

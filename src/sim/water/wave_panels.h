@@ -12,6 +12,10 @@
 #include "sim/water/drag_surface.h"
 #include "sim/water/panels.h"
 
+#include <array>
+#include <optional>
+#include <vector>
+
 namespace tumble {
 
 /// World frame.
@@ -34,6 +38,29 @@ struct WaveLoad {
     Vec3 flow = Vec3::Zero();  // m/s, mean of the water at the wet surface
 };
 
+/// A flat piece of the wet surface, or of the surface of the water that closes it, for the drag.
+struct WetPiece {
+    Vec3 area, flow;              // m^2, along the normal; m/s, of the water
+    std::array<Vec3, 3> places;   // m, middles of the edges
+    std::array<double, 3> rises;  // m/s, at which the water's surface rises there
+};
+
+/// The wet surface of a body at a place and a time: the load of the pressure, and the pieces on which the drag depends
+/// on the motion.
+struct WetHull {
+    struct Part {
+        const HullPart* hull;
+        WaveLoad still;  // without drag
+        std::vector<WetPiece> pieces;
+        std::optional<WetPiece> closing;  // at the first of its places; without rises
+    };
+    Vec3 up = Vec3::UnitY();  // unit
+    std::vector<Part> parts;
+
+    /// `motion`: velocities in the body's frame.
+    WaveLoad load(const FlowPast& motion) const;
+};
+
 class WavePanels {
 public:
     /// True if a body with this longest extent (m) is long beside a wave.
@@ -42,8 +69,8 @@ public:
     WavePanels(const CollisionShape& shape, const WaterDescription& water, double length);
     WavePanels(const TriangleMesh& solid, const WaterDescription& water, double length);
 
-    /// `motion`: velocities in the body's frame.
-    WaveLoad load(const WavesAround& around, const FlowPast& motion) const;
+    /// It must not outlive the panels.
+    WetHull wet(const WavesAround& around) const;
 
 private:
     void add(HullPart part, double wave);

@@ -36,7 +36,7 @@ const Vec3 no_current = Vec3::Zero();
 
 WaveLoad load_at(const WavePanels& panels, const WaterSurface& surface, const Pose& pose, double time,
                  const FlowPast& motion = {}) {
-    return panels.load({surface, no_current, pose, time}, motion);
+    return panels.wet({surface, no_current, pose, time}).load(motion);
 }
 
 /// Forces of a wave along x on an upright box, over rho g: by the rule of Simpson on many parts.
