@@ -288,6 +288,35 @@ TEST(Fracture, AShortLoadIsABlow) {
     }
 }
 
+// Pieces share the force between their body and another one, and do not act on each other.
+TEST(Fracture, ForcesBetweenBodiesActOnThePieces) {
+    for (const std::string force :
+         {"type = \"gravity\"\nstrength = 0.02\n", "type = \"1/r^2\"\nstrength = 30\n",
+          "type = \"coulomb\"\nstrength = 1\ncharges = [-5, 6]\n", "type = \"spring\"\nstiffness = 10\nlength = 1\n",
+          "type = \"dipole\"\nstrength = 1\nmoments = [[0, 0, 4], [0, 0, 5]]\n"})
+        for (const std::string mode : {"stepped", "exact"}) {
+            const SceneDescription scene =
+                scene_of(pane_and_ball("impacts = \"" + mode + "\"\n", plain_pane, fast_ball) +
+                         "[[body]]\nname = \"far\"\nshape = { type = \"sphere\", radius = 0.1 }\nmass = 300\n"
+                         "position = [0, 0, 4]\n[[pair_force]]\nbodies = [\"pane\", \"far\"]\n" +
+                         force);
+            World world(scene);
+            const auto pull_of_a_step = [&] {
+                const double before = world.snapshot().bodies[2].momentum.z();
+                world.step();
+                return world.snapshot().bodies[2].momentum.z() - before;
+            };
+            const double whole = pull_of_a_step();
+            const Vec3 momentum = world.measure().momentum;
+            while (pieces_of(world.snapshot(), scene) == 0) world.step();
+            world.step();
+            EXPECT_NEAR(pull_of_a_step(), whole, 0.1 * std::abs(whole)) << mode << force;
+            for (int n = 0; n < 10; ++n) world.advance_frame();
+            // A piece that is stopped within a step loses the force of its rest.
+            EXPECT_LT((world.measure().momentum - momentum).norm(), 5e-3 * momentum.norm()) << mode << force;
+        }
+}
+
 // An explosion gives each cell an impulse of its own, and the pieces fly apart.
 TEST(Fracture, AnExplosionBreaksAndScatters) {
     for (const std::string mode : {"stepped", "exact"})
@@ -381,7 +410,9 @@ TEST(Fracture, ThreadsAndCheckpointsDoNotMatter) {
     for (const std::string mode : {"stepped", "exact"}) {
         const SceneDescription scene =
             scene_of(pane_and_ball("impacts = \"" + mode + "\"\n", plain_pane, fast_ball) +
-                     "[[body]]\ntype = \"fixed\"\nshape = { type = \"plane\", normal = [0, 0, 1], offset = -0.5 }\n");
+                     "[[body]]\ntype = \"fixed\"\nshape = { type = \"plane\", normal = [0, 0, 1], offset = -0.5 }\n"
+                     "[[pair_force]]\ntype = \"coulomb\"\nstrength = 0.1\ncharges = [3, -2]\n"
+                     "bodies = [\"pane\", \"ball\"]\n");
         World one(scene, 1), eight(scene, 8);
         std::vector<std::vector<std::byte>> frames, states;
         bool whole_at_first = false;

@@ -77,7 +77,7 @@ struct PresentPairs {
     PresentPairs(const PairForces& pairs, const std::vector<Body>& bodies) {
         for (const std::uint32_t i : pairs.bodies()) {
             const Body& body = bodies[i];
-            points.push_back({body.dynamic() ? body.mass : infinity, body.position, body.velocity});
+            points.push_back({pair_mass(body), body.position, body.velocity});
             if (pairs.has_torques()) turns.push_back({body.rotation});
         }
     }

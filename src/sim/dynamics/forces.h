@@ -21,6 +21,9 @@
 
 namespace tumble {
 
+/// kg, for PairForces: infinity of a body that no force moves; 0 of an absent one.
+inline double pair_mass(const Body& body) { return body.absent ? 0.0 : body.dynamic() ? body.mass : infinity; }
+
 class ForceField {
 public:
     /// `order`: the scene index of each body; without it, the scene's order. `origin`: m, world, of the coordinates.
@@ -28,6 +31,11 @@ public:
                         const Vec3& origin = Vec3::Zero());
 
     const PairForces& pairs() const { return pairs_; }
+    /// See PairForces::break_up().
+    void break_pairs(std::span<const BodyInPieces> broken) {
+        pairs_.break_up(broken);
+        held_.assign(pairs_.bodies().size(), Wrench());
+    }
     /// Takes the forces between the bodies at their present places as those of the step [from, to).
     void hold_pairs(const std::vector<Body>& bodies, double from, double to);
     /// Turns the explosions in [from, to), the step that begins, into forces at points of the bodies at their present

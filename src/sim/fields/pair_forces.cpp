@@ -11,7 +11,7 @@ namespace {
 /// Two bodies of a force: with the line from one to the other.
 struct PairOfPoints {
     std::size_t a, b;                                       // indices of their points
-    double factor = 1.0;                                    // of the strength: attracts where positive
+    double factor = 1.0;                                    // of strength and stiffness: attracts where positive
     Vec3 apart = Vec3::Zero();                              // m
     Vec3 moment_a = Vec3::Zero(), moment_b = Vec3::Zero();  // A m^2, world
     double distance = 0.0, smoothed = 0.0;                  // m
@@ -22,7 +22,7 @@ Vec3 pull(const PairForceDescription& f, const PairOfPoints& p, const Vec3& part
     if (f.type == PairForceKind::spring) {
         if (!(p.distance > 0.0)) return Vec3::Zero();
         const Vec3 u = p.apart / p.distance;
-        return (f.stiffness * (p.distance - f.length) + f.damping * u.dot(parting)) * u;
+        return p.factor * (f.stiffness * (p.distance - f.length) + f.damping * u.dot(parting)) * u;
     }
     if (!(p.smoothed > 0.0)) return Vec3::Zero();
     return f.strength * p.factor / (p.smoothed * p.smoothed * p.smoothed) * p.apart;
@@ -56,39 +56,67 @@ bool acts(const PairForceDescription& f, double time) { return time >= f.start &
 }  // namespace
 
 PairForces::PairForces(const std::vector<PairForceDescription>& forces, std::span<const std::size_t> place)
-    : forces_(forces) {
-    for (const PairForceDescription& f : forces_)
-        for (const std::size_t body : f.bodies) bodies_.push_back(std::uint32_t(place[body]));
+    : given_(forces) {
+    for (PairForceDescription& f : given_)
+        for (std::size_t& body : f.bodies) body = place[body];
+    break_up({});
+}
+
+void PairForces::break_up(std::span<const BodyInPieces> broken) {
+    bodies_.clear();
+    forces_.clear();
+    magnets_.clear();
+    for (const PairForceDescription& given : given_) {
+        Force f{given, {}, {}};
+        f.bodies.clear();
+        f.charges.clear();
+        f.moments.clear();
+        for (std::size_t i = 0; i < given.bodies.size(); ++i) {
+            const auto body = std::uint32_t(given.bodies[i]);
+            const std::vector<BodyInPieces::Piece> unbroken{{body, 1.0}};
+            const auto found = std::ranges::find(broken, body, &BodyInPieces::whole);
+            for (const BodyInPieces::Piece& piece : found != broken.end() ? found->pieces : unbroken) {
+                f.bodies.push_back(piece.body);
+                f.wholes.push_back(body);
+                f.shares.push_back(piece.share);
+                if (!given.charges.empty()) f.charges.push_back(piece.share * given.charges[i]);
+                if (!given.moments.empty()) f.moments.emplace_back(piece.share * given.moments[i]);
+                bodies_.push_back(piece.body);
+                if (f.type == PairForceKind::dipole) magnets_.push_back(piece.body);
+            }
+        }
+        forces_.push_back(std::move(f));
+    }
     sort_unique(bodies_);
-    for (const PairForceDescription& f : forces_)
-        if (f.type == PairForceKind::dipole)
-            for (const std::size_t body : f.bodies) magnets_.push_back(std::uint32_t(place[body]));
     sort_unique(magnets_);
-    for (PairForceDescription& f : forces_)
+    for (Force& f : forces_)
         for (std::size_t& body : f.bodies)
-            body = std::size_t(std::lower_bound(bodies_.begin(), bodies_.end(), place[body]) - bodies_.begin());
+            body = std::size_t(std::lower_bound(bodies_.begin(), bodies_.end(), std::uint32_t(body)) - bodies_.begin());
 }
 
 bool PairForces::has(std::uint32_t body) const { return std::binary_search(bodies_.begin(), bodies_.end(), body); }
 
 bool PairForces::turns(std::uint32_t body, double time) const {
     if (!std::binary_search(magnets_.begin(), magnets_.end(), body)) return false;
-    return std::any_of(forces_.begin(), forces_.end(), [&](const PairForceDescription& f) {
+    return std::any_of(forces_.begin(), forces_.end(), [&](const Force& f) {
         return f.type == PairForceKind::dipole && acts(f, time) &&
                std::any_of(f.bodies.begin(), f.bodies.end(), [&](std::size_t k) { return bodies_[k] == body; });
     });
 }
 
 template <class Use>
-void PairForces::each_pair(const PairForceDescription& f, const PairBodies& bodies, const Use& use) const {
+void PairForces::each_pair(const Force& f, const PairBodies& bodies, const Use& use) const {
     const std::span<const MassPoint> points = bodies.points;
     for (std::size_t i = 0; i < f.bodies.size(); ++i)
         for (std::size_t k = i + 1; k < f.bodies.size(); ++k) {
             PairOfPoints p{f.bodies[i], f.bodies[k]};
+            if (f.wholes[i] == f.wholes[k] || !(points[p.a].mass > 0.0 && points[p.b].mass > 0.0)) continue;
             p.apart = points[p.b].position - points[p.a].position;
             const double square = p.apart.squaredNorm();
             p.distance = std::sqrt(square);
             p.smoothed = std::sqrt(square + f.softening * f.softening);
+            if (f.type == PairForceKind::inverse_square || f.type == PairForceKind::spring)
+                p.factor = f.shares[i] * f.shares[k];
             if (f.type == PairForceKind::gravity) p.factor = points[p.a].mass * points[p.b].mass;
             if (f.type == PairForceKind::coulomb) p.factor = -f.charges[i] * f.charges[k];
             if (f.type == PairForceKind::dipole) {
@@ -105,7 +133,7 @@ void PairForces::add(const PairBodies& bodies, double time, std::span<Wrench> wr
 
 void PairForces::add_mean(const PairBodies& bodies, double from, double to, std::span<Wrench> wrenches) const {
     const std::span<const MassPoint> points = bodies.points;
-    for (const PairForceDescription& f : forces_) {
+    for (const Force& f : forces_) {
         double share = acts(f, from) ? 1.0 : 0.0;
         if (to > from && !(f.start <= from && f.end >= to))
             share = std::max(0.0, std::min(to, f.end) - std::max(from, f.start)) / (to - from);
@@ -131,13 +159,13 @@ void PairForces::add_mean(const PairBodies& bodies, double from, double to, std:
 double PairForces::rate(const PairBodies& bodies, double time) const {
     const std::span<const MassPoint> points = bodies.points;
     double fastest = 0.0;
-    for (const PairForceDescription& f : forces_) {
+    for (const Force& f : forces_) {
         if (!acts(f, time)) continue;
         each_pair(f, bodies, [&](const PairOfPoints& p) {
             const auto gives = [&](std::size_t k) { return points[k].mass < infinity ? 1.0 / points[k].mass : 0.0; };
             const double inverse = gives(p.a) + gives(p.b), d = std::max(p.smoothed, p.distance);
             const double parting = (points[p.b].velocity - points[p.a].velocity).norm();
-            double stiffness = f.stiffness, damping = f.damping, turning = 0.0;
+            double stiffness = p.factor * f.stiffness, damping = p.factor * f.damping, turning = 0.0;
             if (f.type != PairForceKind::spring) {
                 if (!(d > 0.0)) return;
                 stiffness = std::abs(f.strength * p.factor) / (d * d * d);
@@ -158,7 +186,7 @@ double PairForces::rate(const PairBodies& bodies, double time) const {
 
 double PairForces::next_change(double time) const {
     double next = infinity;
-    for (const PairForceDescription& f : forces_)
+    for (const Force& f : forces_)
         for (const double change : {f.start, f.end})
             if (change > time) next = std::min(next, change);
     return next;
@@ -166,13 +194,13 @@ double PairForces::next_change(double time) const {
 
 double PairForces::potential(const PairBodies& bodies) const {
     double sum = 0.0;
-    for (const PairForceDescription& f : forces_) {
+    for (const Force& f : forces_) {
         if (f.start > 0.0 || f.end < infinity) continue;
         each_pair(f, bodies, [&](const PairOfPoints& p) {
             if (f.type == PairForceKind::dipole)
                 sum += dipole_energy(f, p);
             else if (f.type == PairForceKind::spring)
-                sum += 0.5 * f.stiffness * (p.distance - f.length) * (p.distance - f.length);
+                sum += 0.5 * p.factor * f.stiffness * (p.distance - f.length) * (p.distance - f.length);
             else if (p.smoothed > 0.0)
                 sum -= f.strength * p.factor / p.smoothed;
         });

@@ -17,16 +17,28 @@ struct PairTurn {
     double inverse_inertia = 0.0;      // 1/(kg m^2), the largest; 0 of a body that no force moves
 };
 
-/// Bodies in the order of PairForces::bodies(); turns only where has_torques() is true.
+/// Bodies in the order of PairForces::bodies(); turns only where has_torques() is true. A body without mass is absent.
 struct PairBodies {
     std::span<const MassPoint> points;
     std::span<const PairTurn> turns;
+};
+
+/// A body in pieces, which share its force by their masses and do not act on each other.
+struct BodyInPieces {
+    struct Piece {
+        std::uint32_t body;
+        double share;  // of the mass of the whole
+    };
+    std::uint32_t whole;
+    std::vector<Piece> pieces;  // ascending
 };
 
 class PairForces {
 public:
     /// `place`: index of each body of the scene in the simulation.
     PairForces(const std::vector<PairForceDescription>& forces, std::span<const std::size_t> place);
+    /// All bodies that are in pieces now.
+    void break_up(std::span<const BodyInPieces> broken);
 
     bool empty() const { return forces_.empty(); }
     /// The bodies with such forces, ascending. All spans below are in their order.
@@ -47,12 +59,17 @@ public:
     double potential(const PairBodies& bodies) const;
 
 private:
+    struct Force : PairForceDescription {  // with indices into bodies_, and charges and moments of pieces
+        std::vector<std::size_t> wholes;   // of the bodies, as given
+        std::vector<double> shares;        // of the bodies in these
+    };
     template <class Use>
-    void each_pair(const PairForceDescription& force, const PairBodies& bodies, const Use& use) const;
+    void each_pair(const Force& force, const PairBodies& bodies, const Use& use) const;
 
+    std::vector<PairForceDescription> given_;  // with indices of the simulation
     std::vector<std::uint32_t> bodies_;
-    std::vector<PairForceDescription> forces_;  // with indices into bodies_
-    std::vector<std::uint32_t> magnets_;        // bodies with dipoles, ascending
+    std::vector<Force> forces_;
+    std::vector<std::uint32_t> magnets_;  // bodies with dipoles, ascending
 };
 
 }  // namespace tumble

@@ -19,6 +19,8 @@ public:
 
     const ForceField& field() const { return field_; }
 
+    /// See PairForces::break_up().
+    void break_pairs(std::span<const BodyInPieces> broken) { field_.break_pairs(broken); }
     /// See ForceField::reshape().
     void reshape(std::size_t index, const Body& body) { field_.reshape(index, body); }
     /// See ForceField::move_points().

@@ -426,8 +426,10 @@ void FractureStage::exchange(std::span<const std::uint32_t> changed, const StepC
     detection.exchange(step.set.bodies, changed);
 }
 
-// Forces at points act on the pieces that hold the points, and water on their shapes.
+// Forces at points act on the pieces that hold the points, forces between bodies on all pieces, and water on their
+// shapes.
 void FractureStage::move_forces(const StepContext& step) const {
+    if (!step.forces.field().pairs().empty()) step.forces.break_pairs(in_pieces());
     for (std::uint32_t i = 0; i < step.set.bodies.size() && step.forces.field().has_water(); ++i) {
         const Body& body = step.set.bodies[i];
         if (bodies_.entry_of(i) != BreakableBodies::none && body.dynamic() && !body.absent)
@@ -439,6 +441,25 @@ void FractureStage::move_forces(const StepContext& step) const {
         if (entry == BreakableBodies::none) continue;
         step.forces.move_points(i, [&](const Vec3& point) { return bodies_[entry].piece_at(point); });
     }
+}
+
+std::vector<BodyInPieces> FractureStage::in_pieces() const {
+    std::vector<BodyInPieces> all;
+    for (std::uint32_t entry = 0; entry < bodies_.size(); ++entry) {
+        const BreakableBody& body = bodies_[entry];
+        if (!body.in_pieces()) continue;
+        BodyInPieces& broken = all.emplace_back();
+        broken.whole = body.whole();
+        double sum = 0.0;
+        for (const std::uint32_t piece : body.pieces()) {
+            double mass = 0.0;
+            for (const std::uint32_t cell : body.cells_of(piece)) mass += body.mass_of(cell).mass;
+            broken.pieces.push_back({piece, mass});
+            sum += mass;
+        }
+        for (BodyInPieces::Piece& piece : broken.pieces) piece.share /= sum;
+    }
+    return all;
 }
 
 void FractureStage::restored(const StepContext& step, MotionStage& motion) const {

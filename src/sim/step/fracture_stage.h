@@ -117,6 +117,7 @@ private:
     bool strike_one(const StepContext& step, ContactDetection& detection, MotionStage& motion);
     bool struck(std::span<const std::uint32_t> manifolds, const StepContext& step, ContactDetection& detection) const;
     void move_forces(const StepContext& step) const;
+    std::vector<BodyInPieces> in_pieces() const;
     void take(const BlowResult& result, const StepContext& step, const ImpactTime& when);
     void exchange(std::span<const std::uint32_t> changed, const StepContext& step, ContactDetection& detection);
 

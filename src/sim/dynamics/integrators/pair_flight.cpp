@@ -30,8 +30,7 @@ void PairFlight::place_others(double time) {
         if (members_[k].flies) continue;
         const Body& body = (*bodies_)[index[k]];
         const Member& m = members_[k];
-        points_[k] = {body.dynamic() ? body.mass : infinity, m.start.position + (time - start_) * m.velocity.velocity,
-                      m.velocity.velocity};
+        points_[k] = {pair_mass(body), m.start.position + (time - start_) * m.velocity.velocity, m.velocity.velocity};
         if (!turns_of_.empty())
             turns_of_[k].rotation =
                 from_rotation_vector((time - start_) * m.velocity.angular_velocity).toRotationMatrix() *
