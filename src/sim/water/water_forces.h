@@ -91,7 +91,7 @@ private:
             WetHull hull;
             std::optional<WetHull> solid;
         };
-        /// Of the panels, the last one: flights ask for several motions at one pose. No two threads ask for one body.
+        /// The last answer of the panels: flights ask for several motions at one pose. No two threads ask for one body.
         mutable std::optional<Wet> wet = std::nullopt;
     };
 
