@@ -45,8 +45,8 @@ void set_focus(SceneDescription& scene, std::size_t body, const Vec3& focus) {
     cut_again(scene);
 }
 
-/// The scene in which these bodies do not break, but for one.
-SceneDescription firm(SceneDescription scene, const Searches& searches, std::size_t but) {
+/// The scene in which these bodies do not break, but for one, if given.
+SceneDescription firm(SceneDescription scene, const Searches& searches, std::optional<std::size_t> but = std::nullopt) {
     for (const auto& [body, search] : searches)
         if (body != but)
             change(scene, body, [](FractureDescription& f) { f.strength = f.shear_strength = unbreakable; });
@@ -85,7 +85,7 @@ std::optional<std::size_t> first_break(const SceneDescription& scene, std::size_
 
 /// Simulates until a blow breaks a body, which is cut about its place. Returns false if none does.
 bool find_one(SceneDescription& scene, Searches& searches) {
-    const SceneDescription whole = firm(scene, searches, scene.bodies.size());
+    const SceneDescription whole = firm(scene, searches);
     World world(whole);
     world.record_contacts();
     for (std::int64_t frame = 1; frame < scene.frame_count(); ++frame) {

@@ -24,13 +24,10 @@ SceneDescription space(IntegratorKind integrator) {
 }
 
 PairForceDescription& add_dipoles(SceneDescription& scene, std::vector<Vec3> moments) {
-    PairForceDescription force;
-    force.type = PairForceKind::dipole;
-    force.strength = strength;
+    PairForceDescription& force = add_pair_force(scene, PairForceKind::dipole, strength, {});
     for (std::size_t body = 0; body < moments.size(); ++body) force.bodies.push_back(body);
     force.moments = std::move(moments);
-    force.end = infinity;
-    return scene.pair_forces.emplace_back(force);
+    return force;
 }
 
 void run_frames(World& world, int frames) {

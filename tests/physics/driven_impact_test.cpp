@@ -11,16 +11,6 @@ using namespace tumble::testing;
 
 namespace {
 
-PairForceDescription& add_pair_force(SceneDescription& scene, PairForceKind type, double strength,
-                                     std::vector<std::size_t> bodies) {
-    PairForceDescription force;
-    force.type = type;
-    force.strength = strength;
-    force.bodies = std::move(bodies);
-    force.end = infinity;
-    return scene.pair_forces.emplace_back(force);
-}
-
 SceneDescription space() {
     SceneDescription scene = empty_scene(1);
     make_exact(scene);

@@ -21,16 +21,6 @@ FieldDescription& add_field(SceneDescription& scene, FieldKind type) {
     return scene.fields.emplace_back(field);
 }
 
-PairForceDescription& add_pair_force(SceneDescription& scene, PairForceKind type, double strength,
-                                     std::vector<std::size_t> bodies) {
-    PairForceDescription force;
-    force.type = type;
-    force.strength = strength;
-    force.bodies = std::move(bodies);
-    force.end = infinity;
-    return scene.pair_forces.emplace_back(force);
-}
-
 SceneDescription space(IntegratorKind integrator) {
     SceneDescription scene = empty_scene();
     scene.simulation.gravity = Vec3::Zero();

@@ -25,12 +25,6 @@ SceneDescription sea(IntegratorKind integrator, double frame, int steps_per_fram
     return scene;
 }
 
-BodyDescription& float_body(SceneDescription& scene, const Shape& shape, double density, double height) {
-    BodyDescription& body = add_body(scene, shape, {0.0, height, 0.0});
-    body.density = density;
-    return body;
-}
-
 BodyState state(const World& world, std::size_t body = 0) { return world.snapshot().bodies[body]; }
 
 TEST(LongInWaves, ASparHeavesByThePressureAtItsFoot) {  // W10, of a spar longer than a tenth of the wave

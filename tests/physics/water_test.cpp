@@ -29,12 +29,6 @@ SceneDescription pool(IntegratorKind integrator, double frame, int steps_per_fra
     return scene;
 }
 
-BodyDescription& float_body(SceneDescription& scene, const Shape& shape, double density, double height) {
-    BodyDescription& body = add_body(scene, shape, {0.0, height, 0.0});
-    body.density = density;
-    return body;
-}
-
 void frames(World& world, int count) {
     for (int n = 0; n < count; ++n) world.advance_frame();
 }

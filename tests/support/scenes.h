@@ -6,6 +6,8 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace tumble::testing {
 
@@ -49,6 +51,24 @@ inline BodyDescription& add_sphere(SceneDescription& scene, double radius, const
     body.mass = mass;
     body.restitution = 0.0;
     return body;
+}
+
+/// For tests in water: at `height` over the origin, m.
+inline BodyDescription& float_body(SceneDescription& scene, const Shape& shape, double density, double height) {
+    BodyDescription& body = add_body(scene, shape, {0.0, height, 0.0});
+    body.density = density;
+    return body;
+}
+
+/// At all times.
+inline PairForceDescription& add_pair_force(SceneDescription& scene, PairForceKind type, double strength,
+                                            std::vector<std::size_t> bodies) {
+    PairForceDescription force;
+    force.type = type;
+    force.strength = strength;
+    force.bodies = std::move(bodies);
+    force.end = infinity;
+    return scene.pair_forces.emplace_back(force);
 }
 
 inline Quat turn(const Vec3& axis, double radians) { return Quat(Eigen::AngleAxisd(radians, axis.normalized())); }

@@ -31,7 +31,7 @@ void EventDrivenMotion::take_off(const std::vector<Contact>& contacts, const std
     for (const std::uint32_t i : movers_) {
         if (!held(bodies[i]) || !supports_[i].none() || bodies[i].jointed) continue;
         bodies[i].flying = true;
-        events_[i].start = {step, 0.0};  // begin_step() finds the trajectory, together with those of others
+        events_[i].start = {step, 0.0};  // begin_step() finds its trajectory
         taken_off_.push_back(i);
     }
     if (!groups_.empty()) take_off_groups(bodies, forces, step);

@@ -172,7 +172,7 @@ void EventDrivenMotion::fly_changed(std::vector<Body>& bodies, const ForceField&
     if (pairs) fly_pairs(bodies, forces, now);
 }
 
-// Bodies with forces between each other fly together: where the flight of one ends, those of the others do too.
+// Bodies with forces between each other fly together: all their flights end at the same time.
 void EventDrivenMotion::fly_pairs(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now) {
     const double time = clock_.seconds(now);
     std::vector<std::uint32_t> flying;

@@ -266,7 +266,7 @@ FractureStage::Difference FractureStage::difference(const std::vector<Load>& the
     return d;
 }
 
-// The bonds without those that fail; nothing if none does.
+// The bonds that remain; nothing if all of them hold.
 std::optional<BondGraph> FractureStage::examine(std::uint32_t entry, std::span<const PieceLoad> piece_loads,
                                                 const StepContext& step, std::vector<BreakRecord>& breaks) {
     const std::vector<Body>& bodies = step.set.bodies;

@@ -96,13 +96,13 @@ private:
     };
     static Load load_on(const Body& body, const Vec3& force, const Vec3& torque, const Vec3& point);
     void find_loads(const StepContext& step, ContactDetection& detection);
-    /// The difference of two lists of loads of the same length. `size`: m, by which torques are divided.
+    /// Compares two lists of equally many loads. `size`: m, arm that turns torques into forces.
     struct Difference {
         double change = 0.0, sum = 0.0;  // N, the sum of the second list
         double moved = 0.0;              // the largest distance of two points, over the size
     };
     static Difference difference(const std::vector<Load>& then, const std::vector<Load>& now, double size);
-    /// The bonds of an entry without those that fail under loads on its cells (N, N m); nothing if none does.
+    /// The bonds of an entry that remain under loads on its cells (N, N m); nothing if all of them hold.
     std::optional<BondGraph> cut(std::uint32_t entry, std::span<const Wrench> loads, const StepContext& step,
                                  std::vector<BreakRecord>& breaks, double& utilization);
     /// Takes the bonds over; the pieces go on as the body moved.

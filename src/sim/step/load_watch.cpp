@@ -13,7 +13,7 @@ namespace {
 /// The rest of a margin falls by this times a change of the loads: see Margin.
 constexpr double with_sum = 1.01;
 
-/// Share of the loads by which rounding may change the rest. Not fitted: thousands of times the rounding of a sum.
+/// Bound of the rounding of a sum of loads, over the sum. Not fitted: thousands of times one rounding.
 constexpr double rounding = 1e-12;
 
 /// N: a rotation of less may round to no load.

@@ -17,12 +17,12 @@ struct StepContext;
 
 class LoadWatch {
 public:
-    /// The loads of a breakable body beside those that were examined last. A change of the sum of all loads changes the
-    /// rest by a hundredth of itself at most.
+    /// How far the loads of a breakable body may change before they are examined again. `rest` changes by at most a
+    /// hundredth of a change of `sum`.
     struct Margin {
         double rest = 0.0;   // N, change that need not be examined
         double sum = 0.0;    // N, of all loads
-        double size = 1.0;   // m, by which torques are divided
+        double size = 1.0;   // m, arm that turns torques into forces
         double moved = 0.0;  // the largest distance of a load from where it was, over the size
     };
 
